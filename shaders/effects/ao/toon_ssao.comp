@@ -1,0 +1,80 @@
+// Ambient occlusion from a few points around each pixel (Lajzer & Nottingham, pass 2).
+#include "lib/space.glsl"
+#include "lib/random.glsl"
+
+// A point this much behind the surface it is compared with is hidden: room for the rounding of depths (relative).
+const float DEPTH_SLACK = 1e-5;
+
+#ifdef POINT_DEPTH
+// Depth at which the ray of `tap` passes `height` above the plane through `position` with `normal`: where the kernel point would be if it
+// lay on the centre of the pixel it falls on. Rays that miss that plane keep the point's own depth.
+float depthAtHeight(ivec2 tap, vec3 position, vec3 normal, float height, float otherwise) {
+    vec2 ray = rayOf(tap);
+    if (view.orthographic) {
+        return normal.z > 1e-6 ? (dot(normal.xy, ray - position.xy) - normal.z * position.z - height) / normal.z : otherwise;
+    }
+    float slope = dot(normal, vec3(ray, -1.0));
+    float t = (dot(normal, position) + height) / slope;
+    return slope < -1e-6 && t > 0.0 ? t : otherwise;
+}
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!insideRegion(pixel)) return;
+    float centre = texelFetch(depth, pixel, 0).r;
+    if (isBackground(centre)) {
+        imageStore(result, pixel, vec4(1));
+        return;
+    }
+    vec3 position = viewPosition(pixel, centre);
+    vec3 mirror = onSphere(evenlySpread(pixel));
+#ifdef HEMISPHERE
+    vec3 surface = texelFetch(normal, pixel, 0).xyz;
+#else
+    vec3 surface = vec3(0, 0, 1);
+#endif
+    float hidden = 0.0;
+    for (int i = 0; i < params.count; ++i) {
+        vec3 offset = reflect(params.kernelPoints[i].xyz, mirror);
+#ifdef HEMISPHERE
+        offset = dot(offset, surface) < 0.0 ? -offset : offset;
+#endif
+#ifdef RADIUS_IN_IMAGE
+        vec2 at = vec2(pixel) + 0.5 + offset.xy * params.radiusPixels;
+        vec3 point = position;
+        float reach = params.radiusPixels * pixelFootprint(centre) / float(view.raster);
+#else
+        vec3 point = position + offset * params.radius;
+        // A point behind the eye falls on no pixel.
+        if (!view.orthographic && point.z > -1e-3 * centre) continue;
+        vec2 at = pixelOf(point);
+        float reach = params.radius;
+#endif
+        ivec2 tap = ivec2(floor(at));
+#ifdef RADIUS_IN_IMAGE
+        tap = clamp(tap, ivec2(0), view.size - 1);
+#else
+        if (!insideRegion(tap)) continue;
+#endif
+        if (tap == pixel) continue;
+        float there = texelFetch(depth, tap, 0).r;
+#if defined(POINT_DEPTH) && !defined(RADIUS_IN_IMAGE)
+        float compared = depthAtHeight(tap, position, surface, dot(point - position, surface), -point.z);
+#else
+        float compared = centre;
+#endif
+        float isHidden = there < compared * (1.0 - DEPTH_SLACK) ? 1.0 : 0.0;
+#ifdef RANGE_CHECK
+        // Full within the radius, gone at twice the radius.
+        isHidden *= clamp(2.0 - (centre - there) / reach, 0.0, 1.0);
+#endif
+        hidden += isHidden;
+    }
+    float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(params.count);
+#ifdef QUADRATIC
+    share *= share;
+#endif
+    float open = 1.0 - share;
+    imageStore(result, pixel, vec4(params.strength == 1.0 ? open : pow(max(open, 0.0), params.strength)));
+}

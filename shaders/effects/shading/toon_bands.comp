@@ -1,0 +1,47 @@
+// Quantizes the intensity into bands and colours the object by them.
+#include "lib/space.glsl"
+#include "lib/color.glsl"
+
+// An intensity this far below a threshold counts as having reached it: a face lit exactly at a threshold then lies safely inside its band,
+// whatever the last bits of its normal.
+const float BAND_BIAS = 1e-4;
+
+#ifdef COLORED_LIGHT
+float intensityAt(ivec2 pixel) { return texelFetch(light, pixel, 0).a; }
+#else
+float intensityAt(ivec2 pixel) { return texelFetch(light, pixel, 0).r; }
+#endif
+
+// The smaller of the differences to both sides: across an edge of the object one side is meaningless, the other is not.
+float slope(ivec2 pixel, ivec2 axis, float here) {
+    ivec2 lower = max(pixel - axis, ivec2(0)), upper = min(pixel + axis, view.size - 1);
+    float back = lower == pixel ? 1e30 : abs(here - intensityAt(lower));
+    float forth = upper == pixel ? 1e30 : abs(intensityAt(upper) - here);
+    float least = min(back, forth);
+    return least < 1e30 ? least : 0.0;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!insideRegion(pixel)) return;
+    vec4 color = texelFetch(albedo, pixel, 0);
+    float intensity = intensityAt(pixel);
+    // Intensity changes this much over the wanted width of a band's edge.
+    float width = params.edgeSoftness <= 0.0 ? 0.0 : params.edgeSoftness * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
+
+    vec3 level = params.bands[0].rgb;
+    for (int i = 1; i < params.count; ++i) {
+        float beyond = intensity + BAND_BIAS - params.bands[i].a;
+        float reached = width > 1e-6 ? clamp(beyond / width + 0.5, 0.0, 1.0) : (beyond >= 0.0 ? 1.0 : 0.0);
+        level += (params.bands[i].rgb - params.bands[i - 1].rgb) * reached;
+    }
+#ifdef COLORED_LIGHT
+    level *= texelFetch(light, pixel, 0).rgb;
+#endif
+#ifdef DISPLAY_ENCODED
+    color.rgb = srgbToLinear(clamp(linearToSrgb(color.rgb) * level, 0.0, 1.0)) * color.a;
+#else
+    color.rgb *= level;
+#endif
+    imageStore(result, pixel, color);
+}

@@ -1,0 +1,3 @@
+// Only the depth buffer is wanted.
+
+void main() {}

@@ -1,0 +1,41 @@
+// Shadow maps: all of them in one depth texture, depth reversed (nearer to the light = larger).
+
+// Lit part (0 … 1) of what a light would give to a position in normalized view space. The position is moved off its surface by a texel
+// or two, as far as the surface is steep to the light: that keeps a surface from shadowing itself without lifting shadows off.
+float shadowOf(Light light, vec3 position, vec3 normal, vec3 towardsLight) {
+    vec3 fromLight = light.direction.w == 0.0 ? vec3(0) : position - light.position.xyz;
+    float texel = light.shadow.x * (light.direction.w == 0.0 ? 1.0 : max(length(fromLight), 1e-6));
+    float slope = sqrt(max(0.0, 1.0 - dot(normal, towardsLight) * dot(normal, towardsLight)));
+    float reach = 1.0 + max(light.shadow.y, 1.0);
+    vec3 lifted = position + normal * texel * (0.4 + slope) * reach;
+
+    int face = 0;
+    if (light.direction.w == 1.0) {
+        // Faces are aligned with the world's axes.
+        vec3 d = mat3(view.worldFromView) * (lifted - light.position.xyz);
+        vec3 a = abs(d);
+        face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1) : a.y >= a.z ? (d.y > 0.0 ? 2 : 3) : (d.z > 0.0 ? 4 : 5);
+    }
+    vec4 clip = light.shadowFromView[face] * vec4(lifted, 1.0);
+    if (clip.w <= 0.0) return 1.0;
+    vec3 ndc = clip.xyz / clip.w;
+    float side = light.shadowPlace[face].z;
+    vec2 at = (ndc.xy * 0.5 + 0.5) * side;
+    if (any(lessThan(at, vec2(0))) || any(greaterThanEqual(at, vec2(side))) || ndc.z <= 0.0) return 1.0;
+
+    // A tent of the wanted width over the texels around.
+    float width = max(light.shadow.y, 0.5) + 0.5;
+    int radius = int(ceil(width));
+    ivec2 centre = ivec2(floor(at));
+    float lit = 0.0, total = 0.0;
+    for (int y = -radius; y <= radius; ++y)
+        for (int x = -radius; x <= radius; ++x) {
+            ivec2 texelAt = clamp(centre + ivec2(x, y), ivec2(0), ivec2(side) - 1);
+            vec2 distance = abs(vec2(centre + ivec2(x, y)) + 0.5 - at);
+            float weight = max(0.0, width - distance.x) * max(0.0, width - distance.y);
+            float stored = texelFetch(shadowMaps, ivec2(light.shadowPlace[face].xy) + texelAt, 0).r;
+            lit += stored > ndc.z ? 0.0 : weight;
+            total += weight;
+        }
+    return total > 0.0 ? lit / total : 1.0;
+}

@@ -1,0 +1,82 @@
+// The three ways in which limn says that something is wrong:
+//   assert        a bug of ours
+//   throw Error   bad input or a failing environment: where, what, how to mend it, and the exit code
+//   std::optional normal absence
+// `main` holds the only catch.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// Exit codes follow sysexits(3) where one fits, so that farms can tell apart what to retry and what to report.
+enum class ExitCode : int {
+    done = 0,
+    someFramesFailed = 1,
+    outOfMemory = 33,
+    usage = 64,        ///< command line or config
+    badData = 65,      ///< scene data
+    missingInput = 66,
+    noDevice = 69,     ///< no usable GL device
+    internal = 70,
+    cannotCreate = 73,
+    ioError = 74,      ///< I/O error or disk full
+    transient = 75,
+    noPermission = 77,
+};
+
+/// A place in a text file. Lines and columns count from 1; 0 means "the whole file" or "no column".
+struct Location {
+    std::string file;
+    int line = 0;
+    int column = 0;
+
+    /// "file:line:column", leaving out what is unknown.
+    std::string text() const;
+};
+
+/// One thing that is wrong, in words for the person who can mend it.
+struct Error : std::exception {
+    Error(ExitCode code, Location where, std::string what, std::string remedy = {});
+
+    const char* what() const noexcept override { return message.c_str(); }
+
+    ExitCode code;
+    Location where;
+    std::string problem;  ///< what is wrong
+    std::string remedy;   ///< how to mend it; may be empty
+    std::string message;  ///< "where: problem; remedy"
+};
+
+/// Several errors that were found together. Never empty when thrown.
+struct Errors : std::exception {
+    const char* what() const noexcept override;
+
+    /// The exit code of the first error.
+    ExitCode code() const { return list.front().code; }
+
+    std::vector<Error> list;
+};
+
+/// Collects errors so that a person sees all of them at once.
+class ErrorCollector {
+public:
+    void add(Error error) { errors_.list.push_back(std::move(error)); }
+    bool empty() const { return errors_.list.empty(); }
+    const std::vector<Error>& list() const { return errors_.list; }
+
+    /// Throws Errors when anything was collected.
+    void throwIfAny() const;
+
+private:
+    Errors errors_;
+};
+
+/// The exit code that fits a failed system call (errno) while *creating or writing* a file.
+ExitCode exitCodeForWrite(int errorNumber);
+/// The exit code that fits a failed system call (errno) while *reading* a file.
+ExitCode exitCodeForRead(int errorNumber);
+
+}  // namespace limn

@@ -1,0 +1,131 @@
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace limn {
+namespace {
+
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() { if (fd_ >= 0) ::close(fd_); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    operator int() const { return fd_; }
+    /// Some file systems report a failed write only here.
+    int close() { return ::close(std::exchange(fd_, -1)); }
+
+private:
+    int fd_;
+};
+
+Error readError(const std::filesystem::path& path, int errorNumber) {
+    return {exitCodeForRead(errorNumber), {path.string()}, fmt::format("cannot be read ({})", std::strerror(errorNumber)),
+            errorNumber == ENOENT ? "check the path" : ""};
+}
+
+Error writeError(const std::filesystem::path& path, int errorNumber, std::string_view doing) {
+    std::string remedy;
+    if (errorNumber == ENOSPC || errorNumber == EDQUOT) remedy = "free some space; what stood there before is unharmed";
+    if (errorNumber == EFBIG) remedy = "the file size is limited here (ulimit -f); what stood there before is unharmed";
+    if (errorNumber == EACCES || errorNumber == EROFS) remedy = "choose another folder with --output";
+    return {exitCodeForWrite(errorNumber), {path.string()}, fmt::format("{} failed ({})", doing, std::strerror(errorNumber)), std::move(remedy)};
+}
+
+void writeAll(int fd, std::span<const std::byte> bytes, const std::filesystem::path& path) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        // A write that takes nothing would loop for ever: treat it as the full disk it is.
+        if (written <= 0) throw writeError(path, written < 0 ? errno : ENOSPC, "writing");
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void compareWith(int fd, std::span<const std::byte> bytes, const std::filesystem::path& path) {
+    if (::lseek(fd, 0, SEEK_SET) != 0) throw writeError(path, errno, "reading back");
+    std::array<std::byte, 1 << 16> buffer;
+    while (true) {
+        const ssize_t got = ::read(fd, buffer.data(), buffer.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw writeError(path, errno, "reading back");
+        if (got == 0) break;
+        const auto count = static_cast<std::size_t>(got);
+        if (count > bytes.size() || std::memcmp(buffer.data(), bytes.data(), count) != 0) throw writeError(path, EIO, "reading back");
+        bytes = bytes.subspan(count);
+    }
+    if (!bytes.empty()) throw writeError(path, EIO, "reading back");
+}
+
+}  // namespace
+
+MappedFile::MappedFile(const std::filesystem::path& path) {
+    const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (fd < 0) throw readError(path, errno);
+    struct stat info {};
+    if (::fstat(fd, &info) != 0) throw readError(path, errno);
+    if (S_ISDIR(info.st_mode)) throw readError(path, EISDIR);
+    size_ = static_cast<std::size_t>(info.st_size);
+    if (size_ == 0) return;
+    void* mapped = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
+    if (mapped == MAP_FAILED) throw readError(path, errno);
+    data_ = static_cast<const char*>(mapped);
+}
+
+MappedFile::~MappedFile() {
+    if (data_) ::munmap(const_cast<char*>(data_), size_);
+}
+
+std::string readFile(const std::filesystem::path& path) {
+    const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (fd < 0) throw readError(path, errno);
+    std::string text;
+    std::array<char, 1 << 16> buffer;
+    while (true) {
+        const ssize_t got = ::read(fd, buffer.data(), buffer.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw readError(path, errno);
+        if (got == 0) return text;
+        text.append(buffer.data(), static_cast<std::size_t>(got));
+    }
+}
+
+void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    std::error_code made;
+    std::filesystem::create_directories(folder, made);
+    if (made) throw writeError(folder, made.value(), "making the folder");
+    if (std::filesystem::is_directory(path)) throw writeError(path, EISDIR, "creating");
+
+    // The name says whose it is, so that a stale one can be recognized and swept after a kill.
+    auto temporary = (folder / ".limn-XXXXXX").string();
+    Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
+    if (fd < 0) throw writeError(path, errno, "creating");
+    try {
+        if (::fchmod(fd, 0644) != 0) throw writeError(path, errno, "creating");
+        writeAll(fd, bytes, path);
+        if (::fsync(fd) != 0) throw writeError(path, errno, "writing");
+        compareWith(fd, bytes, path);
+        if (fd.close() != 0) throw writeError(path, errno, "writing");
+        if (::rename(temporary.c_str(), path.c_str()) != 0) throw writeError(path, errno, "renaming");
+    } catch (...) {
+        ::unlink(temporary.c_str());
+        throw;
+    }
+    // The rename itself must survive a power cut; a file system that cannot sync folders has nothing better to offer.
+    const Descriptor folderFd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folderFd >= 0) ::fsync(folderFd);
+}
+
+void replaceFile(const std::filesystem::path& path, std::string_view text) { replaceFile(path, std::as_bytes(std::span(text.data(), text.size()))); }
+
+}  // namespace limn

@@ -1,0 +1,38 @@
+// Reading whole files and replacing files safely.
+#pragma once
+
+#include "base/error.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace limn {
+
+/// The bytes of a file, mapped into memory and read-only; empty for an empty file. Throws Error.
+class MappedFile {
+public:
+    explicit MappedFile(const std::filesystem::path& path);
+    ~MappedFile();
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+
+    std::string_view text() const { return {data_, size_}; }
+
+private:
+    const char* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// Throws Error when the file is missing, a folder, or cannot be read.
+std::string readFile(const std::filesystem::path& path);
+
+/// Replaces `path` by `bytes`, or leaves everything as it was. A temporary in the same folder is written with every short write
+/// noticed, synced, read back and compared, then renamed, and the folder synced. Missing folders are made.
+/// Throws Error: 73 cannot create, 74 I/O or disk full, 77 permission.
+void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void replaceFile(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace limn

@@ -1,0 +1,92 @@
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace limn {
+namespace {
+
+/// Levenshtein distance in which swapping two neighbouring letters counts as one slip, since that is how people mistype.
+int editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<int>(i);
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = static_cast<int>(j);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    }
+    return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates) {
+    // A third of the letters may differ: enough for slips, too little to suggest an unrelated word.
+    int best = static_cast<int>(std::max<std::size_t>(word.size(), 3) / 3) + 1;
+    std::optional<std::string> nearest;
+    for (const auto& candidate : candidates) {
+        const int distance = editDistance(word, candidate);
+        if (distance < best) best = distance, nearest = candidate;
+    }
+    return nearest;
+}
+
+std::string nameRemedy(std::string_view word, std::span<const std::string> candidates) {
+    if (candidates.empty()) return "nothing can stand here";
+    if (const auto nearest = nearestName(word, candidates)) return fmt::format("did you mean '{}'?", *nearest);
+    return "it can be " + joinOr(candidates);
+}
+
+std::string joinOr(std::span<const std::string> words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return text;
+}
+
+std::optional<double> parseNumber(std::string_view text) {
+    double value = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::string numberText(double value) {
+    // Values that came through a float print as that float, not with the digits the widening invented.
+    const float narrow = static_cast<float>(value);
+    return static_cast<double>(narrow) == value ? fmt::format("{}", narrow) : fmt::format("{}", value);
+}
+
+std::string jsonText(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        if (static_cast<unsigned char>(c) < 0x20) result += fmt::format("\\u{:04x}", static_cast<int>(c));
+        else result += c;
+    }
+    return result + '"';
+}
+
+std::string bytesText(std::uint64_t bytes) {
+    if (bytes < 1024) return fmt::format("{} B", bytes);
+    const char* units[] = {"KiB", "MiB", "GiB", "TiB"};
+    double amount = static_cast<double>(bytes) / 1024;
+    int unit = 0;
+    while (amount >= 1024 && unit < 3) amount /= 1024, ++unit;
+    return fmt::format("{:.1f} {}", amount, units[unit]);
+}
+
+Hash& Hash::add(const void* data, std::size_t size) {
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ byte[i]) * 1099511628211ull;
+    return *this;
+}
+
+std::string Hash::hex() const { return fmt::format("{:016x}", value_); }
+
+}  // namespace limn

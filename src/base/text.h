@@ -1,0 +1,45 @@
+// Small text helpers that several layers share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limn {
+
+/// The candidate closest to `word` by edit distance, if it is close enough to be what was meant.
+std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates);
+/// "did you mean 'x'?" when something is near, else "it can be a, b or c".
+std::string nameRemedy(std::string_view word, std::span<const std::string> candidates);
+
+/// "a, b or c"
+std::string joinOr(std::span<const std::string> words);
+
+/// Locale-free. nullopt unless the whole text is one finite number.
+std::optional<double> parseNumber(std::string_view text);
+
+/// The shortest text that reads back as the same number.
+std::string numberText(double value);
+
+/// A JSON string literal, quotes included.
+std::string jsonText(std::string_view text);
+
+/// "12.3 MiB"
+std::string bytesText(std::uint64_t bytes);
+
+/// Incremental 64-bit FNV-1a: for content keys, not for secrets.
+class Hash {
+public:
+    Hash& add(const void* data, std::size_t size);
+    Hash& add(std::string_view text) { return add(text.data(), text.size()); }
+    std::uint64_t value() const { return value_; }
+    std::string hex() const;
+
+private:
+    std::uint64_t value_ = 14695981039346656037ull;
+};
+
+}  // namespace limn

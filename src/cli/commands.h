@@ -1,0 +1,34 @@
+// The commands. Each adds itself to the command line and runs when chosen; each returns the exit code.
+#pragma once
+
+#include "gl/device.h"
+#include "render/renderer.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace limn::cli {
+
+/// The command that was chosen, to be run after parsing.
+using Chosen = std::function<ExitCode()>;
+
+void addRender(CLI::App& app, Chosen& chosen);
+void addPlan(CLI::App& app, Chosen& chosen);
+void addCheck(CLI::App& app, Chosen& chosen);
+void addTechniques(CLI::App& app, Chosen& chosen);
+void addInit(CLI::App& app, Chosen& chosen);
+void addDoctor(CLI::App& app, Chosen& chosen);
+
+/// Options that several commands share.
+struct DeviceFlags {
+    gl::DeviceOptions options;
+    std::string shaderFolder;
+    void add(CLI::App& command);
+};
+
+/// The parameter reference, as Markdown.
+std::string parameterReference();
+
+}  // namespace limn::cli

@@ -1,0 +1,93 @@
+// limn init: a commented scene and config to start from.
+
+#include "base/file.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "cli/commands.h"
+
+#include <fmt/format.h>
+
+namespace limn::cli {
+namespace {
+
+std::string vectorText(const glm::dvec3& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z); }
+
+std::string tomlText(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + "\"";
+}
+
+ExitCode run(const std::string& model, const std::string& folderText) {
+    const std::filesystem::path folder = folderText;
+    const LoadedScene loaded = loadScene(model);
+    const DrawScene scene = resolveFrame(loaded, "", 1, {1280, 720});
+    const std::string name = std::filesystem::path(model).stem().string();
+    const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
+    for (const auto& path : {scenePath, configPath})
+        if (std::filesystem::exists(path)) throw Error(ExitCode::cannotCreate, {path.string()}, "exists already", "choose another folder with --output, or move the file away");
+
+    std::error_code ignored;
+    const auto relative = std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
+    std::string materials;
+    for (const auto& material : loaded.meshes.front().poly.materialNames)
+        if (!material.empty()) materials += fmt::format("#\n# [[material]]              # replaces the material of that name\n# name = {}\n# color = \"#d89c7a\"\n# shininess = 40           # a highlight; none at 1 or below\n", tomlText(material));
+    const auto& light = scene.lights.front();
+    replaceFile(scenePath, fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
+up = "y"                     # or "z"
+
+[[mesh]]
+name = {0}
+file = {1}
+
+# Without an [[instance]] each mesh is drawn once where it was modelled.
+# [[instance]]
+# mesh = {0}
+# translate = [0, 0, 0]
+# rotate = [0, 30, 0]        # degrees, about x, then y, then z
+# scale = [1, 1, 1]
+
+[[camera]]                   # frames everything; move it as you like
+name = "main"
+position = {2}
+look_at = {3}
+focal_length = 50            # mm on a sensor 36 mm wide; or fov = 40; or orthographic_height = 3
+
+[[light]]
+kind = "sun"                 # sun, point or spot
+direction = {4}
+color = "#ffffff"
+intensity = 1
+shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
+{5})", tomlText(name), tomlText(relative.empty() ? std::filesystem::absolute(model).string() : relative.string()), vectorText(scene.camera.position), vectorText(scene.camera.lookAt), vectorText(light.direction), materials));
+    replaceFile(configPath, fmt::format(R"(# A picture: how to draw the scene. A section that is not there is an effect that is not there, at no cost.
+# See what will run with:  limn plan {0}
+scene = "scene.toml"
+camera = "main"
+
+{1}
+[output]
+path = {2}                   # .png .jpg .tif, or .exr with every AOV in one file
+aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal depth position object_id material_id ...
+)", configPath.string(), quickstartStyle(), tomlText(name + ".png")));
+    log::info("Saved: '{}'", scenePath.string());
+    log::info("Saved: '{}'", configPath.string());
+    log::info("draw it with:  limn render {}", configPath.string());
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addInit(CLI::App& app, Chosen& chosen) {
+    auto model = std::make_shared<std::string>();
+    auto folder = std::make_shared<std::string>(".");
+    auto* command = app.add_subcommand("init", "Write a commented scene and config to start from");
+    command->add_option("MODEL", *model, "OBJ file")->required();
+    command->add_option("--output", *folder, "Folder to write to")->type_name("DIR");
+    command->callback([=, &chosen] { chosen = [=] { return run(*model, *folder); }; });
+}
+
+}  // namespace limn::cli

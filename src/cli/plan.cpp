@@ -1,0 +1,85 @@
+// limn plan: what would run, what was culled and why. limn check: validate everything without drawing.
+
+#include "base/log.h"
+#include "cli/commands.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace limn::cli {
+namespace {
+
+struct PlanOptions {
+    std::string config, format = "text";
+    ConfigOverrides overrides;
+    int frame = 0;
+    bool measure = false;
+    DeviceFlags device;
+};
+
+ExitCode runPlan(const PlanOptions& options) {
+    const RenderConfig config = readRenderConfig(options.config, options.overrides);
+    const LoadedScene loaded = loadScene(config.scene);
+    const int frame = options.frame ? options.frame : loaded.scene.firstFrame();
+    std::vector<double> milliseconds;
+    int maxTextureSize = 16384;
+    if (options.measure) {
+        Renderer renderer(options.device.options, options.device.shaderFolder);
+        maxTextureSize = std::min(renderer.device().limits().maxTextureSize, renderer.device().limits().maxViewport);
+        RenderOptions measured;
+        measured.measure = true;
+        renderer.render(config, loaded, frame, {});   // warms up: programs, textures
+        renderer.render(config, loaded, frame, measured);
+        milliseconds = renderer.passMilliseconds();
+    }
+    ExplainedPlan plan = planConfig(config, loaded, frame, maxTextureSize);
+    if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all sub-frames of one frame");
+    const auto format = options.format == "json" ? PlanFormat::json : options.format == "dot" ? PlanFormat::dot : PlanFormat::text;
+    fmt::print("{}", explain(plan.frame.graph, plan.frame.plan, format, plan.facts, milliseconds));
+    return ExitCode::done;
+}
+
+ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides& overrides) {
+    ErrorCollector errors;
+    for (const auto& path : configs) {
+        try {
+            const RenderConfig config = readRenderConfig(path, overrides);
+            const LoadedScene loaded = loadScene(config.scene);
+            static_cast<void>(planConfig(config, loaded, loaded.scene.firstFrame()));
+            log::info("{}: fine", path);
+        } catch (const Error& error) {
+            errors.add(error);
+        } catch (const Errors& several) {
+            for (const auto& error : several.list) errors.add(error);
+        }
+    }
+    errors.throwIfAny();
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void addPlan(CLI::App& app, Chosen& chosen) {
+    auto options = std::make_shared<PlanOptions>();
+    auto* command = app.add_subcommand("plan", "Show what would run, what was culled and why");
+    command->add_option("CONFIG", options->config, "Config file, or an OBJ file")->required();
+    command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
+    command->add_option("--frame", options->frame, "Frame to plan; the first declared one without it")->type_name("N");
+    command->add_option("--format", options->format, "text, json or dot")->check(CLI::IsMember({"text", "json", "dot"}));
+    command->add_flag("--measure", options->measure, "Draw a frame and add the milliseconds of each pass");
+    options->device.add(*command);
+    command->callback([options, &chosen] { chosen = [options] { return runPlan(*options); }; });
+}
+
+void addCheck(CLI::App& app, Chosen& chosen) {
+    auto configs = std::make_shared<std::vector<std::string>>();
+    auto overrides = std::make_shared<ConfigOverrides>();
+    auto* command = app.add_subcommand("check", "Validate configs, scenes and meshes without drawing; all problems at once");
+    command->add_option("CONFIG", *configs, "Config files")->required();
+    command->add_option("--set", overrides->settings, "Change a setting")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command->callback([=, &chosen] { chosen = [=] { return runCheck(*configs, *overrides); }; });
+}
+
+}  // namespace limn::cli

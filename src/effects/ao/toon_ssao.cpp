@@ -1,0 +1,117 @@
+// Screen-space ambient occlusion of "Combining Screen-Space Ambient Occlusion and Cartoon Rendering" (Lajzer & Nottingham), pass 2.
+//
+// A few fixed points around each pixel, reflected about a random vector, are compared with the depth buffer.
+// Reads depth (and, for a hemisphere, the geometric normal); writes ambient_occlusion_raw: 1 open, 0 closed, background 1.
+//
+// Departs from the paper in default mode, each by a parameter: the points fill a hemisphere over the surface instead of a flat disk at
+// the pixel's depth, occluders beyond the radius do not count, no dead zone, and occlusion grows with the count instead of its square.
+// A point is compared at the centre of the pixel it falls on, at its own height above the surface: a plane is open at every tilt.
+
+#include "effects/technique.h"
+
+#include <cmath>
+
+namespace limn {
+enum class ToonKernel { sphere, hemisphere };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<ToonKernel> = {"sphere", "hemisphere"};
+enum class SampleDepth { pixel, point };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<SampleDepth> = {"pixel", "point"};
+enum class RadiusIn { scene, image };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<RadiusIn> = {"scene", "image"};
+enum class CountMapping { linear, quadratic };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<CountMapping> = {"linear", "quadratic"};
+
+namespace {
+
+constexpr int kMaxPoints = 64;
+
+struct Params {
+    int points = 8;
+    Length radius = Length::percent(5);
+    RadiusIn radiusIn = RadiusIn::scene;
+    float imageRadius = 16.0f / 512;
+    ToonKernel kernel = ToonKernel::hemisphere;
+    SampleDepth sampleDepth = SampleDepth::point;
+    bool rangeCheck = true;
+    int deadZone = 0;
+    CountMapping mapping = CountMapping::linear;
+    float strength = 1;
+};
+
+constexpr Field kParams[] = {
+    field<&Params::points>("points", {.min = 1, .max = kMaxPoints, .accuracy = true, .keyable = false, .doc = "Points compared per pixel and sample."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Farthest occluder that darkens a point."}),
+    field<&Params::radiusIn>("radius_in", {.doc = "Measure the reach in the scene (radius) or in the picture (image_radius), as the paper does."}),
+    field<&Params::imageRadius>("image_radius", {.unit = "image widths", .min = 0, .max = 1, .doc = "Reach in the picture when radius_in = \"image\"."}),
+    field<&Params::kernel>("kernel", {.doc = "Points all around the pixel, or only above its surface."}),
+    field<&Params::sampleDepth>("sample_depth", {.doc = "Compare the depth buffer with the pixel's own depth (the paper) or with each point's."}),
+    field<&Params::rangeCheck>("range_check", {.doc = "Ignore occluders much nearer than the radius."}),
+    field<&Params::deadZone>("dead_zone", {.min = 0, .max = kMaxPoints, .doc = "Counts below this are not occlusion: hides what a whole sphere wrongly finds on flat surfaces."}),
+    field<&Params::mapping>("mapping", {.doc = "How the share of hidden points becomes occlusion."}),
+    field<&Params::strength>("strength", {.min = 0, .max = 4, .doc = "Exponent on the result: above 1 darker, below 1 lighter."}),
+};
+
+struct Constants {
+    std::array<glm::vec4, kMaxPoints> kernelPoints{};
+    int count = 0;
+    float radius = 0, radiusPixels = 0;
+    int deadZone = 0;
+    float strength = 1;
+};
+
+constexpr Field kConstants[] = {
+    field<&Constants::kernelPoints>("kernelPoints", {.doc = "Points in the unit ball, in xyz."}),
+    field<&Constants::count>("count", {.doc = "Number of points."}),
+    field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Reach in the scene."}),
+    field<&Constants::radiusPixels>("radiusPixels", {.unit = "fine pixels", .doc = "Reach in the picture, for radius_in = \"image\"."}),
+    field<&Constants::deadZone>("deadZone", {.doc = "Counts below this are no occlusion."}),
+    field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
+};
+
+/// Directions on a Fibonacci spiral and lengths in an order unrelated to it, so that the few points fill the ball evenly.
+Constants derive(const Params& params, const View& view) {
+    Constants c;
+    c.count = params.points;
+    c.radius = static_cast<float>(view.normalized(params.radius));
+    c.radiusPixels = params.imageRadius * static_cast<float>(view.fineSize().x);
+    c.deadZone = params.deadZone;
+    c.strength = params.strength;
+    const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
+    for (int i = 0; i < params.points; ++i) {
+        const double z = 1 - 2 * (i + 0.5) / params.points, ring = std::sqrt(1 - z * z), angle = golden * i;
+        const double volume = std::fmod((i + 0.5) * 0.6180339887498949, 1.0);
+        c.kernelPoints[static_cast<std::size_t>(i)] = glm::vec4(glm::dvec4(ring * std::cos(angle), ring * std::sin(angle), z, 0) * std::cbrt(volume));
+    }
+    return c;
+}
+
+void build(EffectBuilder& graph, const Params& params) {
+    const ResourceId result = graph.image(aov::ambientOcclusionRaw);
+    Pass pass;
+    pass.name = "toon_ssao";
+    pass.reads = {{"depth", graph.read(aov::depth)}};
+    if (params.kernel == ToonKernel::hemisphere) pass.reads.push_back({"normal", graph.read(aov::normalGeometric)});
+    pass.writes = {{"result", result}};
+    pass.params = paramsBlock(kConstants, derive(params, graph.view()));
+    const auto define = [&](bool on, const char* name) { if (on) pass.defines.emplace_back(name, ""); };
+    define(params.kernel == ToonKernel::hemisphere, "HEMISPHERE");
+    define(params.sampleDepth == SampleDepth::point, "POINT_DEPTH");
+    define(params.radiusIn == RadiusIn::image, "RADIUS_IN_IMAGE");
+    define(params.rangeCheck, "RANGE_CHECK");
+    define(params.mapping == CountMapping::quadratic, "QUADRATIC");
+    pass.note = std::to_string(params.points) + " points per pixel";
+    graph.add(std::move(pass));
+    graph.publish(aov::ambientOcclusionRaw, result);
+    graph.publish(aov::ambientOcclusion, result);
+}
+
+const Technique kToonSsao{"ao", "toon_ssao", "A few fixed points around each pixel, compared with the depth buffer (Lajzer & Nottingham).", kParams, build,
+                          {{"paper", "As published: a flat disk of points, no range check, counts below 5 of 8 ignored, squared.",
+                            "points = 8, radius_in = 'image', image_radius = 0.03125, kernel = 'sphere', sample_depth = 'pixel', range_check = false, dead_zone = 5, mapping = 'quadratic'"}}};
+
+}  // namespace
+}  // namespace limn

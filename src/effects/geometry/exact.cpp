@@ -1,0 +1,35 @@
+// Visible surfaces, exact: a visibility buffer (triangle ids at raster time) and one analytic evaluation per visible pixel.
+//
+// After Burns & Hunt, "The Visibility Buffer", JCGT 2013; vertices are snapped to the rasterizer's grid in whole-picture pixels, and
+// the plane of each visible triangle is intersected with the pixel's ray in double precision. Depth error: half an ulp of float.
+
+#include "effects/geometry/outputs.h"
+
+namespace limn {
+namespace {
+
+void build(EffectBuilder& graph, const NoParams&) {
+    const ResourceId visibility = graph.image("visibility", Format::rg32ui);
+    const ResourceId zBuffer = graph.image("z_buffer", Format::depth32f);
+    Pass raster;
+    raster.name = "visibility";
+    raster.kind = Pass::Kind::raster;
+    raster.writes = {{"visibility", visibility}, {"zBuffer", zBuffer}};
+    raster.needs = SceneData::positions;
+    raster.note = "triangle ids only";
+    graph.add(std::move(raster));
+
+    Pass resolve;
+    resolve.name = "resolve";
+    resolve.reads = {{"visibility", visibility}};
+    resolve.writes = publishSurfaces(graph);
+    resolve.defines = surfaceDefines(graph);
+    resolve.needs = SceneData::positions;
+    resolve.note = "analytic, once per visible pixel";
+    graph.add(std::move(resolve));
+}
+
+const Technique kExact{"geometry", "exact", "Triangle ids at raster time, then exact evaluation of just what is read, once per visible pixel.", {}, build};
+
+}  // namespace
+}  // namespace limn

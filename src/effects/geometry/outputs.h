@@ -1,0 +1,31 @@
+// What every geometry technique promises: the AOVs that describe the visible surfaces. The plan keeps only those that are read.
+#pragma once
+
+#include "effects/technique.h"
+
+namespace limn {
+
+inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
+    const SceneData textures = graph.scene().textured ? SceneData::textures | SceneData::uvs : SceneData::none;
+    const std::pair<const Aov*, SceneData> outputs[] = {
+        {&aov::depth, SceneData::none},      {&aov::normal, SceneData::normals},
+        {&aov::normalGeometric, SceneData::none}, {&aov::position, SceneData::none},
+        {&aov::albedo, SceneData::materials | textures}, {&aov::objectId, SceneData::none},
+        {&aov::materialId, SceneData::none},
+    };
+    std::vector<Write> writes;
+    for (const auto& [aov, needs] : outputs) {
+        const ResourceId image = graph.image(*aov);
+        const float clear = aov == &aov::depth ? kBackgroundDepth : 0.0f;
+        writes.push_back({std::string(aov->name), image, needs, glm::vec4(clear)});
+        graph.publish(*aov, image);
+    }
+    return writes;
+}
+
+inline std::vector<std::pair<std::string, std::string>> surfaceDefines(const EffectBuilder& graph) {
+    if (graph.scene().textured) return {{"TEXTURED", ""}};
+    return {};
+}
+
+}  // namespace limn

@@ -1,0 +1,147 @@
+#include "effects/technique.h"
+
+#include "base/text.h"
+#include "config/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limn {
+namespace {
+
+std::vector<const Technique*>& registry() {
+    static std::vector<const Technique*> techniques;
+    return techniques;
+}
+
+std::vector<std::string> namesIn(std::string_view slot) {
+    std::vector<std::string> names;
+    for (const auto* technique : allTechniques())
+        if (technique->slot == slot) names.emplace_back(technique->name);
+    return names;
+}
+
+}  // namespace
+
+Technique::Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_, std::vector<Preset>&& presets_)
+    : slot(slot_), name(name_), doc(doc_), schema(schema_), presets(std::move(presets_)) {
+    registry().push_back(this);
+}
+
+const std::vector<const Technique*>& allTechniques() {
+    // The linker's order is no order: sort once, when everybody has registered.
+    static const bool sorted = [] {
+        std::sort(registry().begin(), registry().end(), [](const auto* a, const auto* b) { return std::pair(a->slot, a->name) < std::pair(b->slot, b->name); });
+        return true;
+    }();
+    static_cast<void>(sorted);
+    return registry();
+}
+
+const Technique* findTechnique(std::string_view slot, std::string_view name) {
+    for (const auto* technique : allTechniques())
+        if (technique->slot == slot && technique->name == name) return technique;
+    return nullptr;
+}
+
+ResourceId EffectBuilder::read(const Aov& aov) const {
+    if (const auto found = find(aov)) return *found;
+    throw Error(ExitCode::internal, {}, fmt::format("{} '{}' reads '{}', which nothing before it writes", slot_, technique_, aov.name), "please report this");
+}
+
+std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
+    const auto it = published_.find(aov.name);
+    if (it == published_.end()) return std::nullopt;
+    return it->second;
+}
+
+ResourceId EffectBuilder::image(std::string name, Format format) { return graph_.add({std::move(name), format, view_.regionSize(), false}); }
+
+void EffectBuilder::add(Pass pass) {
+    pass.slot = slot_;
+    pass.technique = technique_;
+    if (pass.shader.empty()) pass.shader = fmt::format("effects/{}/{}", slot_, technique_);
+    graph_.passes.push_back(std::move(pass));
+}
+
+std::optional<ResourceId> EffectBuilder::shadowMaps() {
+    if (shadowMaps_) return shadowMaps_;
+    const ShadowLayout layout = shadowLayout(scene_.lights);
+    if (layout.drawings.empty()) return std::nullopt;
+    shadowMaps_ = graph_.add({"shadow_maps", Format::depth32f, layout.size, false});
+    Pass pass;
+    pass.name = "shadow_maps";
+    pass.slot = "shadow", pass.technique = "shadow_map";
+    pass.kind = Pass::Kind::raster;
+    pass.shader = "frame/shadow_map";
+    pass.writes = {{"shadowDepth", *shadowMaps_}};
+    pass.needs = SceneData::positions | SceneData::lights;
+    pass.drawings = layout.drawings;
+    pass.note = fmt::format("{} map{}", layout.drawings.size(), layout.drawings.size() == 1 ? "" : "s");
+    graph_.passes.push_back(std::move(pass));
+    return shadowMaps_;
+}
+
+std::shared_ptr<void> TechniqueChoice::at(double frame) const {
+    auto copy = technique->copyParams(params.get());
+    applyTracks(copy.get(), tracks, frame);
+    return copy;
+}
+
+TechniqueChoice defaultChoice(std::string_view slot, std::string_view name) {
+    const Technique* technique = findTechnique(slot, name);
+    if (!technique) throw Error(ExitCode::internal, {}, fmt::format("there is no {} technique '{}'", slot, name), "please report this");
+    return {technique, technique->makeParams(), {}, "default"};
+}
+
+void applySettings(TechniqueChoice& choice, std::string_view settings) {
+    ErrorCollector errors;
+    const Node table = *parseDocument(fmt::format("settings = {{ {} }}", settings), "settings").find("settings");
+    readFields(table, choice.technique->schema, choice.params.get(), &choice.tracks, fmt::format("{} '{}'", choice.technique->slot, choice.technique->name), errors);
+    errors.throwIfAny();
+}
+
+TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what, ErrorCollector& errors, std::span<const std::string_view> alsoKnown) {
+    TechniqueChoice choice;
+    if (!section.isTable() && !section.text()) {
+        errors.add({ExitCode::usage, section.where, fmt::format("{} must be a table, not {}", what, section.kindName()), ""});
+        return choice;
+    }
+    // A technique without settings may be given by its name alone.
+    const Node* named = section.text() ? &section : section.find("technique");
+    const std::string name = named && named->text() ? *named->text() : std::string(fallback);
+    choice.technique = findTechnique(slot, name);
+    if (!choice.technique) {
+        const auto names = namesIn(slot);
+        if (!named) errors.add({ExitCode::usage, section.where, fmt::format("{} has no 'technique'", what), "it can be " + joinOr(names)});
+        else errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot, name), nameRemedy(name, names)});
+        return choice;
+    }
+    choice.params = choice.technique->makeParams();
+    if (section.text()) return choice;
+
+    const auto applyPreset = [&](const Node& node, std::string_view preset) {
+        std::vector<std::string> presets;
+        for (const auto& known : choice.technique->presets) {
+            if (known.name == preset) return applySettings(choice, known.settings);
+            presets.emplace_back(known.name);
+        }
+        errors.add({ExitCode::usage, node.where, fmt::format("{} technique '{}' has no preset '{}'", slot, name, preset), presets.empty() ? "it has none" : nameRemedy(preset, presets)});
+    };
+    if (const Node* mode = section.find("mode")) {
+        const std::string* text = mode->text();
+        if (!text || (*text != "default" && *text != "paper")) errors.add({ExitCode::usage, mode->where, fmt::format("'mode' in {} must be \"default\" or \"paper\"", what), ""});
+        else if (choice.mode = *text; *text == "paper") applyPreset(*mode, "paper");
+    }
+    if (const Node* preset = section.find("preset")) {
+        if (preset->text()) applyPreset(*preset, *preset->text());
+        else errors.add({ExitCode::usage, preset->where, fmt::format("'preset' in {} must be text", what), ""});
+    }
+    std::vector<std::string_view> known{"technique", "mode", "preset"};
+    known.insert(known.end(), alsoKnown.begin(), alsoKnown.end());
+    readFields(section, choice.technique->schema, choice.params.get(), &choice.tracks, fmt::format("{} ({})", what, name), errors, known);
+    return choice;
+}
+
+}  // namespace limn

@@ -1,0 +1,132 @@
+// What an effect is made of, and where it makes itself known.
+//
+// An effect is two files of one stem: src/effects/<slot>/<name>.cpp and shaders/effects/<slot>/<name>.comp. The .cpp ends with
+//     const Technique kName{"slot", "name", "what it is", kParams, build};
+// and nothing else knows that it exists.
+#pragma once
+
+#include "base/params.h"
+#include "frame/aov.h"
+#include "frame/gpu_scene.h"
+#include "frame/view.h"
+#include "graph/graph.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// Facts about the scene at a frame that an effect may build on.
+struct SceneFacts {
+    SceneInfo info;
+    std::span<const Light> lights;
+    bool textured = false;         ///< some drawn material has a texture
+    bool coloredLight = false;     ///< some light is not grey
+};
+
+/// What an effect builds its passes with.
+class EffectBuilder {
+public:
+    EffectBuilder(Graph& graph, const View& view, const SceneFacts& scene) : graph_(graph), view_(view), scene_(scene) {}
+
+    const View& view() const { return view_; }
+    const SceneFacts& scene() const { return scene_; }
+
+    /// The image that holds an AOV so far. Missing is a bug of the pipeline or of the order of slots: throws Error (internal).
+    ResourceId read(const Aov& aov) const;
+    std::optional<ResourceId> find(const Aov& aov) const;
+    /// From now on this image is the AOV.
+    void publish(const Aov& aov, ResourceId image) { published_[aov.name] = image; }
+
+    /// An image as large as the region drawn.
+    ResourceId image(std::string name, Format format);
+    ResourceId image(const Aov& aov) { return image(std::string(aov.name), aov.format); }
+
+    /// Adds a pass; slot, technique and (unless given) shader are filled in.
+    void add(Pass pass);
+
+    /// The shadow maps of all lights that cast one, as one image; nullopt when none does.
+    std::optional<ResourceId> shadowMaps();
+
+    void beginTechnique(std::string slot, std::string technique) { slot_ = std::move(slot), technique_ = std::move(technique); }
+    /// A unique suffix for layered slots ("edges" twice), or "".
+    void setLayer(int layer) { layer_ = layer; }
+    std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }
+
+private:
+    Graph& graph_;
+    const View& view_;
+    const SceneFacts& scene_;
+    std::map<std::string_view, ResourceId> published_;
+    std::optional<ResourceId> shadowMaps_;
+    std::string slot_, technique_;
+    int layer_ = 0;
+};
+
+/// The uniform block `params` of a pass, from a constants struct and its table.
+template <class C, std::size_t N>
+UniformBlock paramsBlock(const Field (&fields)[N], const C& constants) { return makeUniformBlock("params", 1, fields, &constants); }
+
+/// Settings that belong together. `mode = "paper"` is the preset of that name.
+struct Preset {
+    std::string_view name, doc;
+    std::string_view settings;     ///< TOML: "kernel = 'sphere', dead_zone = 5"
+};
+
+/// Settings of a technique that has none.
+struct NoParams {};
+
+struct Technique {
+    std::string_view slot, name, doc;
+    Schema schema;
+    std::vector<Preset> presets;
+    std::shared_ptr<void> (*makeParams)();
+    std::shared_ptr<void> (*copyParams)(const void*);
+    void (*build)(EffectBuilder&, const void* params, const Technique& self);
+
+    template <class P>
+    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, std::type_identity_t<Schema> fields, void (*build_)(EffectBuilder&, const P&), std::vector<Preset> presets_ = {})
+        : Technique(slot_, name_, doc_, fields, std::move(presets_)) {
+        makeParams = []() -> std::shared_ptr<void> { return std::make_shared<P>(); };
+        copyParams = [](const void* params) -> std::shared_ptr<void> { return std::make_shared<P>(*static_cast<const P*>(params)); };
+        buildFunction_ = reinterpret_cast<void (*)()>(build_);
+        build = [](EffectBuilder& builder, const void* params, const Technique& self) { reinterpret_cast<void (*)(EffectBuilder&, const P&)>(self.buildFunction_)(builder, *static_cast<const P*>(params)); };
+    }
+
+    Technique(const Technique&) = delete;
+    Technique& operator=(const Technique&) = delete;
+
+private:
+    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_, std::vector<Preset>&& presets_);   // registers
+    void (*buildFunction_)() = nullptr;
+};
+
+/// Every technique, by slot and name.
+const std::vector<const Technique*>& allTechniques();
+const Technique* findTechnique(std::string_view slot, std::string_view name);
+
+/// A technique with its settings, as a config chose it.
+struct TechniqueChoice {
+    const Technique* technique = nullptr;
+    std::shared_ptr<void> params;
+    std::vector<Track> tracks;
+    std::string mode = "default";
+
+    /// The settings at a frame.
+    std::shared_ptr<void> at(double frame) const;
+};
+
+/// A technique as it is when nothing is said but its name. Throws Error (internal) if there is none.
+TechniqueChoice defaultChoice(std::string_view slot, std::string_view name);
+/// Reads `technique`, `mode`, `preset` and the parameters of a section. Problems go to `errors`; `fallback` names the technique when the
+/// section does not (empty: it must). `alsoKnown` are keys that somebody else reads.
+TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what, ErrorCollector& errors, std::span<const std::string_view> alsoKnown = {});
+
+/// A setting of a choice changed from TOML text, as tests and studies do. Throws Errors.
+void applySettings(TechniqueChoice& choice, std::string_view settings);
+
+}  // namespace limn

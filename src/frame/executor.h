@@ -1,0 +1,47 @@
+// Runs a Plan: makes its textures and programs, binds what each pass declared, times it if asked.
+#pragma once
+
+#include "frame/gpu_scene.h"
+#include "frame/shaders.h"
+#include "gl/device.h"
+#include "gl/objects.h"
+#include "graph/graph.h"
+
+#include <map>
+#include <memory>
+#include <unordered_map>
+
+namespace limn {
+
+class Executor {
+public:
+    Executor(const gl::Device& device, const ShaderLibrary& shaders) : device_(device), shaders_(shaders) {}
+
+    /// Compiles every program that the plan needs, before the scene is there: the two can overlap.
+    void prepare(const Graph& graph, const Plan& plan, const View& view);
+
+    /// Draws one sub-frame. With `measure`, adds each pass's GPU time to milliseconds().
+    void run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, bool measure);
+
+    /// A result of the last run that was asked for.
+    const gl::Texture& texture(const Plan& plan, ResourceId resource) const;
+
+    /// GPU milliseconds per planned pass, summed over the runs that measured.
+    const std::vector<double>& milliseconds() const { return milliseconds_; }
+    void resetMeasurements() { milliseconds_.clear(); }
+
+private:
+    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
+    void allocate(const Plan& plan);
+    void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
+    void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
+
+    const gl::Device& device_;
+    const ShaderLibrary& shaders_;
+    std::unordered_map<std::string, gl::Program> programs_;   ///< by their whole source
+    std::map<std::size_t, gl::Texture> textures_;             ///< by index into Plan::textures
+    std::vector<double> milliseconds_;
+    bool timerIsWarm_ = false;
+};
+
+}  // namespace limn

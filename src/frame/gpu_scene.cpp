@@ -1,0 +1,367 @@
+#include "frame/gpu_scene.h"
+
+#include "base/color.h"
+#include "base/error.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace limn {
+namespace {
+
+// Mirrors of the structs in shaders/frame/scene.glsl (std430).
+struct GpuInstance {
+    glm::dmat4 viewFromMesh;
+    glm::mat4 viewNormalFromMesh;
+    std::uint32_t firstVertex, firstIndex, materialTable, firstObject, materialWords, partWords;
+    float facing;
+    std::uint32_t padding;
+};
+static_assert(sizeof(GpuInstance) == 224);
+
+struct GpuMaterial {
+    glm::vec4 color;
+    float shininess, specular;
+    int levels, layer;
+    glm::ivec4 place;
+};
+static_assert(sizeof(GpuMaterial) == 48);
+
+struct GpuLight {
+    glm::vec4 direction, position, color, cone, shadow;
+    glm::vec4 shadowPlace[6];
+    glm::mat4 shadowFromView[6];
+};
+static_assert(sizeof(GpuLight) == 560);
+
+constexpr std::uint32_t kNoWords = ~0u;
+
+template <class T>
+std::span<const std::byte> bytesOf(const std::vector<T>& values) { return std::as_bytes(std::span(values)); }
+
+std::uint64_t countAll(std::span<const TriMesh> meshes, auto member) {
+    std::uint64_t count = 0;
+    for (const auto& mesh : meshes) count += (mesh.*member).size();
+    return count;
+}
+
+template <class T>
+std::vector<T> concatenate(std::span<const TriMesh> meshes, std::vector<T> TriMesh::*member) {
+    std::vector<T> all;
+    all.reserve(countAll(meshes, member));
+    for (const auto& mesh : meshes) all.insert(all.end(), (mesh.*member).begin(), (mesh.*member).end());
+    return all;
+}
+
+/// Reversed-depth perspective over `fov` (full angle, radians), square.
+glm::dmat4 lightPerspective(double fov, double near) {
+    const double f = 1 / std::tan(fov / 2);
+    glm::dmat4 m(0);
+    m[0][0] = m[1][1] = f;
+    m[2][3] = -1;
+    m[3][2] = near;
+    return m;
+}
+
+/// A view along `forward`, with any up.
+glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& forward) {
+    const glm::dvec3 up = std::abs(forward.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    return glm::lookAt(position, position + forward, up);
+}
+
+constexpr glm::dvec3 kCubeFaces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+/// Clip space of the light's map from normalized view space.
+std::vector<glm::dmat4> shadowMatrices(const Light& light, const SceneInfo& scene, const View& view) {
+    const glm::dmat4 worldFromView = view.worldFromView;
+    if (light.kind == LightKind::sun) {
+        // A sphere around the scene keeps the map's texels still while the camera moves.
+        const double radius = scene.diagonal() / 2;
+        const glm::dvec3 forward = glm::normalize(light.direction);
+        const glm::dmat4 lightView = lookAlong(scene.bounds.centre() - forward * radius * 2.0, forward);
+        glm::dmat4 clip(1);
+        clip[0][0] = clip[1][1] = 1 / radius;
+        // Depths radius … 3·radius → 1 … 0.
+        clip[2][2] = 1 / (2 * radius);
+        clip[3][2] = 1.5;
+        return {clip * lightView * worldFromView};
+    }
+    const double near = scene.diagonal() * 1e-4;
+    if (light.kind == LightKind::spot) return {lightPerspective(glm::radians(light.angle), near) * lookAlong(light.position, glm::normalize(light.direction)) * worldFromView};
+    std::vector<glm::dmat4> faces;
+    for (const auto& forward : kCubeFaces) faces.push_back(lightPerspective(glm::radians(90.0), near) * lookAlong(light.position, forward) * worldFromView);
+    return faces;
+}
+
+/// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a column to its right.
+struct MipChain {
+    glm::ivec2 size{0};
+    int levels = 1;
+    std::vector<std::vector<std::uint8_t>> pixels;   ///< RGBA per level
+
+    glm::ivec2 levelSize(int level) const { return glm::max(size >> level, glm::ivec2(1)); }
+    glm::ivec2 levelOrigin(int level) const {
+        glm::ivec2 origin(0);
+        for (int l = 1; l <= level; ++l) l == 1 ? void(origin.x = size.x) : void(origin.y += levelSize(l - 1).y);
+        return origin;
+    }
+    glm::ivec2 footprint() const {
+        const glm::ivec2 last = levelOrigin(levels - 1) + levelSize(levels - 1);
+        return {levels > 1 ? size.x + levelSize(1).x : size.x, std::max(size.y, last.y)};
+    }
+};
+
+/// Halves by averaging the area that each new texel covers, so that any size works.
+Image halve(const Image& image, glm::ivec2 size) {
+    Image half{size.x, size.y, 4, std::vector<float>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4)};
+    tbb::parallel_for(0, size.y, [&](int y) {
+        for (int x = 0; x < size.x; ++x) {
+            const double x0 = double(x) * image.width / size.x, x1 = double(x + 1) * image.width / size.x;
+            const double y0 = double(y) * image.height / size.y, y1 = double(y + 1) * image.height / size.y;
+            double sum[4] = {}, total = 0;
+            for (int v = static_cast<int>(y0); v < std::min<int>(static_cast<int>(std::ceil(y1)), image.height); ++v) {
+                for (int u = static_cast<int>(x0); u < std::min<int>(static_cast<int>(std::ceil(x1)), image.width); ++u) {
+                    const double weight = (std::min<double>(u + 1, x1) - std::max<double>(u, x0)) * (std::min<double>(v + 1, y1) - std::max<double>(v, y0));
+                    for (int c = 0; c < 4; ++c) sum[c] += weight * static_cast<double>(image.at(u, v)[c]);
+                    total += weight;
+                }
+            }
+            for (int c = 0; c < 4; ++c) half.at(x, y)[c] = static_cast<float>(sum[c] / total);
+        }
+    });
+    return half;
+}
+
+MipChain makeMipChain(const Image& picture) {
+    Image level{picture.width, picture.height, 4, {}};
+    level.pixels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 4);
+    for (int y = picture.height - 1; y >= 0; --y) {  // v counts from the bottom
+        for (int x = 0; x < picture.width; ++x) {
+            const float* p = picture.at(x, y);
+            const bool grey = picture.channels < 3;
+            for (int c = 0; c < 3; ++c) level.pixels.push_back(p[grey ? 0 : c]);
+            level.pixels.push_back(picture.channels == 4 ? p[3] : picture.channels == 2 ? p[1] : 1.0f);
+        }
+    }
+    MipChain chain;
+    chain.size = {picture.width, picture.height};
+    chain.levels = 1 + static_cast<int>(std::log2(std::max(picture.width, picture.height)));
+    for (int l = 0; l < chain.levels; ++l) {
+        if (l > 0) level = halve(level, chain.levelSize(l));
+        chain.pixels.push_back(quantize8({.name = "texture", .channels = {}, .isColour = false, .isInteger = false, .image = [&] {
+            Image encoded = level;
+            for (std::size_t i = 0; i < encoded.pixels.size(); ++i)
+                if (i % 4 != 3) encoded.pixels[i] = linearToSrgb(encoded.pixels[i]);
+            return encoded;
+        }()}));
+    }
+    return chain;
+}
+
+}  // namespace
+
+ShadowLayout shadowLayout(std::span<const Light> lights) {
+    constexpr int kRow = 8192;   // maps stand side by side up to here, then in the next row
+    ShadowLayout layout;
+    glm::ivec2 pen(0);
+    int rowHeight = 0;
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        if (!lights[l].shadow.present) continue;
+        const int side = lights[l].shadow.resolution;
+        for (int face = 0; face < (lights[l].kind == LightKind::point ? 6 : 1); ++face) {
+            if (pen.x > 0 && pen.x + side > kRow) pen = {0, pen.y + rowHeight}, rowHeight = 0;
+            layout.drawings.push_back({{pen, side, side}, static_cast<int>(l) * 8 + face});
+            pen.x += side;
+            rowHeight = std::max(rowHeight, side);
+            layout.size = glm::max(layout.size, glm::ivec2(pen.x, pen.y + rowHeight));
+        }
+    }
+    return layout;
+}
+
+gl::Buffer GpuScene::upload(std::span<const std::byte> data, const char* label) {
+    bytes_ += data.size();
+    return gl::Buffer(data, label);
+}
+
+GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, long long maxStorageBlock, int maxTextureSize) : needs_(needs) {
+    if (!has(needs, SceneData::positions)) return;
+    const auto largest = static_cast<std::uint64_t>(maxStorageBlock);
+    if (countAll(meshes, &TriMesh::indices) * 4 > largest || countAll(meshes, &TriMesh::positions) * 12 > largest)
+        throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene's meshes need more than the {} that this GL device allows in one buffer", bytesText(largest)), "use a coarser mesh or another device");
+
+    std::vector<std::uint32_t> words;
+    std::uint32_t vertices = 0, indices = 0;
+    for (const auto& mesh : meshes) {
+        MeshPlace place{vertices, indices, static_cast<std::uint32_t>(mesh.indices.size()), kNoWords, kNoWords, mesh.pivot};
+        const auto addWords = [&](const std::vector<std::uint32_t>& values) {
+            if (values.empty()) return kNoWords;
+            words.insert(words.end(), values.begin(), values.end());
+            return static_cast<std::uint32_t>(words.size() - values.size());
+        };
+        place.materialWords = addWords(mesh.triangleMaterial);
+        place.partWords = addWords(mesh.trianglePart);
+        vertices += static_cast<std::uint32_t>(mesh.positions.size());
+        indices += place.indexCount;
+        places_.push_back(place);
+    }
+    std::vector<gl::DrawCommand> commands;
+    std::vector<std::uint32_t> numbers;
+    for (const auto& instance : scene.instances) {
+        const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
+        materialTables_.push_back(static_cast<std::uint32_t>(words.size()));
+        words.insert(words.end(), instance.materials.begin(), instance.materials.end());
+        const auto number = static_cast<std::uint32_t>(numbers.size());
+        commands.push_back({place.indexCount, 1, place.firstIndex, static_cast<std::int32_t>(place.firstVertex), number});
+        numbers.push_back(number);
+    }
+    positions_ = upload(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
+    indices_ = upload(bytesOf(concatenate(meshes, &TriMesh::indices)), "indices");
+    words_ = upload(bytesOf(words), "triangle words");
+    commands_ = upload(bytesOf(commands), "draw commands");
+    instanceNumbers_ = upload(bytesOf(numbers), "instance numbers");
+    std::vector<gl::VertexInput> inputs{{&positions_, 0, 3}, {&instanceNumbers_, 1, 0}};
+    if (has(needs, SceneData::normals)) {
+        normals_ = upload(bytesOf(concatenate(meshes, &TriMesh::normals)), "normals");
+        inputs.push_back({&normals_, 2, 3});
+    }
+    if (has(needs, SceneData::uvs)) {
+        uvs_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvs)), "uvs");
+        inputs.push_back({&uvs_, 3, 2});
+    }
+    vertexArray_ = gl::VertexArray(inputs, indices_, "scene");
+
+    atlasEntries_.resize(scene.materials.size(), {glm::ivec4(0), 0});
+    textureSizes_.resize(scene.materials.size(), glm::ivec2(0));
+    if (has(needs, SceneData::textures)) loadTextures(scene, maxTextureSize);
+    if (has(needs, SceneData::materials)) {
+        std::vector<GpuMaterial> gpuMaterials;
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+            const auto& m = scene.materials[i];
+            const auto& entry = atlasEntries_[i];
+            gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b, 1}, m.shininess, m.specular, entry.levels, entry.place.z, {entry.place.x, entry.place.y, textureSizes_[i].x, textureSizes_[i].y}});
+        }
+        materials_ = upload(bytesOf(gpuMaterials), "materials");
+    }
+}
+
+void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
+    std::map<std::string, MipChain> chains;
+    for (const auto& material : scene.materials)
+        if (!material.texture.empty()) chains[material.texture];
+    if (chains.empty()) return;
+    for (auto& [file, chain] : chains) chain = makeMipChain(readImage(file));
+
+    // Shelves: tallest first, left to right, then the next shelf, then the next layer.
+    std::vector<std::pair<std::string, const MipChain*>> order;
+    int side = 256;
+    for (const auto& [file, chain] : chains) {
+        order.emplace_back(file, &chain);
+        const glm::ivec2 footprint = chain.footprint();
+        while (side < std::max(footprint.x, footprint.y)) side *= 2;
+        if (side > maxTextureSize) throw Error(ExitCode::outOfMemory, {file}, fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y), "make it smaller");
+    }
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second->footprint().y > b.second->footprint().y; });
+    std::map<std::string, glm::ivec4> places;
+    glm::ivec3 pen(0);
+    int shelf = 0;
+    for (const auto& [file, chain] : order) {
+        const glm::ivec2 footprint = chain->footprint();
+        if (pen.x + footprint.x > side) pen.x = 0, pen.y += shelf, shelf = 0;
+        if (pen.y + footprint.y > side) pen = {0, 0, pen.z + 1}, shelf = 0;
+        places[file] = {pen, 0};
+        pen.x += footprint.x;
+        shelf = std::max(shelf, footprint.y);
+    }
+    atlas_ = gl::Texture::pictureArray(side, pen.z + 1, "texture atlas");
+    bytes_ += std::uint64_t{4} * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(pen.z + 1);
+    for (const auto& [file, chain] : chains)
+        for (int l = 0; l < chain.levels; ++l) atlas_.writeLayer(places[file].z, glm::ivec2(places[file]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto& file = scene.materials[i].texture;
+        if (file.empty()) continue;
+        atlasEntries_[i] = {places[file], chains[file].levels};
+        textureSizes_[i] = chains[file].size;
+    }
+}
+
+std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const View& view) const {
+    std::vector<GpuInstance> instances;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& instance = scene.instances[i];
+        const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
+        // The pivot joins the translation in double: nothing large is left when the sum becomes small.
+        const glm::dmat4 viewFromMesh = view.viewFromWorld * instance.worldFromMesh * glm::translate(glm::dmat4(1), place.pivot);
+        const glm::dmat3 linear(viewFromMesh);
+        const double determinant = glm::determinant(linear);
+        // Scaled to the order of one, since only directions matter and tiny determinants would overflow.
+        const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+        glm::dmat3 normal(1);
+        if (determinant != 0 && scale > 0) normal = glm::transpose(glm::inverse(linear / scale));
+        instances.push_back({viewFromMesh, glm::mat4(glm::mat3(normal)), place.firstVertex, place.firstIndex, materialTables_[i], instance.firstObject, place.materialWords, place.partWords, determinant < 0 ? -1.0f : 1.0f, 0});
+    }
+    const auto bytes = bytesOf(instances);
+    return {bytes.begin(), bytes.end()};
+}
+
+std::vector<std::byte> GpuScene::lightBytes(const DrawScene& scene, const View& view) const {
+    std::vector<GpuLight> lights;
+    const glm::dmat3 rotation = glm::transpose(glm::dmat3(view.worldFromView) * view.unit);
+    const ShadowLayout layout = shadowLayout(scene.lights);
+    for (const auto& light : scene.lights) {
+        GpuLight gpu{};
+        const glm::dvec3 towards = light.kind == LightKind::point ? glm::dvec3(0) : -glm::normalize(rotation * light.direction);
+        gpu.direction = glm::vec4(glm::vec3(towards), static_cast<float>(light.kind));
+        gpu.position = glm::vec4(glm::vec3(view.viewFromWorld * glm::dvec4(light.position, 1)), light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
+        gpu.color = glm::vec4(light.color.r, light.color.g, light.color.b, 0) * static_cast<float>(light.intensity);
+        const double half = glm::radians(light.angle) / 2;
+        gpu.cone = {std::cos(half), std::cos(half * (1 - light.blend)), 0, 0};
+        if (light.shadow.present) {
+            const double texelAtUnit = light.kind == LightKind::sun    ? scene.info.diagonal() * view.unit / light.shadow.resolution
+                                       : light.kind == LightKind::spot ? 2 * std::tan(half) / light.shadow.resolution
+                                                                       : 2.0 / light.shadow.resolution;
+            gpu.shadow = {texelAtUnit, light.shadow.softness, 0, 1};
+            for (const auto& drawing : layout.drawings)
+                if (drawing.number / 8 == static_cast<int>(lights.size())) gpu.shadowPlace[drawing.number % 8] = glm::vec4(drawing.viewport);
+            const auto matrices = shadowMatrices(light, scene.info, view);
+            for (std::size_t m = 0; m < matrices.size(); ++m) gpu.shadowFromView[m] = matrices[m];
+        }
+        lights.push_back(gpu);
+    }
+    const auto bytes = bytesOf(lights);
+    return {bytes.begin(), bytes.end()};
+}
+
+void GpuScene::setView(const DrawScene& scene, const View& view) {
+    if (!has(needs_, SceneData::positions)) return;
+    const auto put = [&](gl::Buffer& buffer, const std::vector<std::byte>& data, const char* label) {
+        if (!buffer || buffer.size() != data.size()) buffer = upload(data, label);
+        else buffer.write(data);
+    };
+    put(instances_, instanceBytes(scene, view), "instances");
+    if (has(needs_, SceneData::lights)) put(lights_, lightBytes(scene, view), "lights");
+}
+
+void GpuScene::bind() const {
+    if (!has(needs_, SceneData::positions)) return;
+    positions_.bindStorage(0);
+    indices_.bindStorage(1);
+    if (normals_) normals_.bindStorage(2);
+    if (uvs_) uvs_.bindStorage(3);
+    instances_.bindStorage(4);
+    words_.bindStorage(5);
+    if (materials_) materials_.bindStorage(6);
+    if (lights_) lights_.bindStorage(7);
+    if (atlas_) atlas_.bindSampler(kAtlasUnit);
+    vertexArray_.bind();
+}
+
+void GpuScene::draw() const { gl::drawElements(commands_, static_cast<int>(places_.empty() ? 0 : materialTables_.size())); }
+
+}  // namespace limn

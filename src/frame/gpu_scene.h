@@ -1,0 +1,74 @@
+// The scene as the GPU sees it: only the data that the plan reads is uploaded.
+#pragma once
+
+#include "frame/view.h"
+#include "geometry/tri_mesh.h"
+#include "gl/objects.h"
+#include "graph/graph.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
+#include <functional>
+
+namespace limn {
+
+/// One mesh, placed.
+struct DrawInstance {
+    int mesh = 0;
+    glm::dmat4 worldFromMesh{1};
+    std::vector<std::uint32_t> materials;   ///< of each of the mesh's material names: index into DrawScene::materials
+    std::uint32_t firstObject = 1;          ///< object_id of the mesh's first part
+};
+
+/// The scene at one frame, with everything resolved.
+struct DrawScene {
+    std::vector<DrawInstance> instances;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    Camera camera;
+    SceneInfo info;
+};
+
+/// The one texture that holds every shadow map, and the square of each: one for a sun or spot, six for a point light. The number of a
+/// drawing is 8 · light + face. Empty when no light casts a shadow.
+struct ShadowLayout {
+    glm::ivec2 size{0};
+    std::vector<Drawing> drawings;
+};
+ShadowLayout shadowLayout(std::span<const Light> lights);
+
+class GpuScene {
+public:
+    /// `meshes` may be released afterwards. Reads the textures' files when the plan needs them.
+    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, long long maxStorageBlock, int maxTextureSize);
+
+    /// Recomputes what depends on the camera: instance transforms in double precision, lights.
+    void setView(const DrawScene& scene, const View& view);
+
+    void bind() const;
+    void draw() const;   ///< every instance, in scene order
+    std::uint64_t bytes() const { return bytes_; }
+    bool hasTextures() const { return static_cast<bool>(atlas_); }
+
+    static constexpr int kAtlasUnit = 15;
+
+private:
+    gl::Buffer upload(std::span<const std::byte> data, const char* label);
+    void loadTextures(const DrawScene& scene, int maxTextureSize);
+    std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
+    std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
+
+    struct MeshPlace { std::uint32_t firstVertex, firstIndex, indexCount, materialWords, partWords; glm::dvec3 pivot; };
+    std::vector<MeshPlace> places_;
+    std::vector<std::uint32_t> materialTables_;   ///< offset of each instance's table in the words buffer
+    struct AtlasEntry { glm::ivec4 place; int levels; };   ///< x, y, layer, unused
+    std::vector<AtlasEntry> atlasEntries_;        ///< of each material
+    std::vector<glm::ivec2> textureSizes_;
+    SceneData needs_;
+    gl::Buffer positions_, normals_, uvs_, indices_, words_, instances_, materials_, lights_, commands_, instanceNumbers_;
+    gl::Texture atlas_;
+    gl::VertexArray vertexArray_;
+    std::uint64_t bytes_ = 0;
+};
+
+}  // namespace limn

@@ -1,0 +1,30 @@
+// GLSL sources: built into the program, or read from a folder while working on them.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace limn {
+
+class ShaderLibrary {
+public:
+    /// `folder` empty: the sources built into the program.
+    explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+
+    bool contains(const std::string& path) const;
+    /// The source with `#include "lib/x.glsl"` lines replaced by the file, each once. Throws Error.
+    std::string load(const std::string& path) const;
+
+private:
+    std::string source(const std::string& path) const;
+    void expand(const std::string& path, std::set<std::string>& seen, std::string& out) const;
+
+    std::filesystem::path folder_;
+};
+
+/// Made by CMake from shaders/.
+std::string_view embeddedShader(std::string_view path);
+
+}  // namespace limn

@@ -1,0 +1,203 @@
+#include "frame/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limn {
+namespace {
+
+/// Offset of sub-frame i of m within a fine pixel: Hammersley points, centred so that their mean is the pixel's centre.
+glm::dvec2 subFrameJitter(int i, int m) {
+    const auto point = [m](int index) {
+        double y = 0, digit = 0.5;
+        for (int bits = index; bits > 0; bits >>= 1, digit *= 0.5) y += (bits & 1) * digit;
+        return glm::dvec2((index + 0.5) / m, y);
+    };
+    glm::dvec2 mean(0);
+    for (int j = 0; j < m; ++j) mean += point(j) / static_cast<double>(m);
+    return point(i) - mean;
+}
+
+/// An orthonormal basis (columns: right, up, backward) of a camera.
+glm::dmat3 cameraBasis(const Camera& camera, const glm::dvec3& sceneUp) {
+    const glm::dvec3 backward = glm::normalize(camera.position - camera.lookAt);
+    glm::dvec3 up = camera.up == glm::dvec3(0) ? sceneUp : camera.up;
+    glm::dvec3 right = glm::cross(up, backward);
+    if (glm::dot(right, right) < 1e-20 * glm::dot(up, up)) {
+        // Looking straight along the up axis: any of the other axes will do, always the same one.
+        up = std::abs(backward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+        right = glm::cross(up, backward);
+    }
+    right = glm::normalize(right);
+    return {right, glm::cross(backward, right), backward};
+}
+
+struct ViewConstants {
+    glm::mat4 clipFromView, worldFromView;
+    glm::dvec2 rayScaleExact, rayOffsetExact;
+    glm::vec2 rayScale, rayOffset;
+    glm::ivec2 imageSize, origin, size;
+    int raster, firstSample;
+    unsigned seed;
+    bool orthographic;
+    float unit, near, far;
+};
+
+constexpr Field kViewConstants[] = {
+    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of the whole picture; depth reversed, 0…1."}),
+    field<&ViewConstants::worldFromView>("worldFromView", {.doc = "Directions only need its upper 3×3."}),
+    field<&ViewConstants::rayScaleExact>("rayScaleExact", {.doc = "rayScale in double precision."}),
+    field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
+    field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
+    field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
+    field<&ViewConstants::imageSize>("imageSize", {.unit = "fine pixels", .doc = "Of the whole picture."}),
+    field<&ViewConstants::origin>("origin", {.unit = "fine pixels", .doc = "Lower left of the region drawn, in the whole picture."}),
+    field<&ViewConstants::size>("size", {.unit = "fine pixels", .doc = "Of the region drawn: the size of every screen texture."}),
+    field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per output pixel, each way."}),
+    field<&ViewConstants::firstSample>("firstSample", {.doc = "Number of this sub-frame's first sample within an output pixel."}),
+    field<&ViewConstants::seed>("seed", {.doc = "Of all randomness in this frame."}),
+    field<&ViewConstants::orthographic>("orthographic", {.doc = "Parallel rays."}),
+    field<&ViewConstants::unit>("unit", {.doc = "Normalized units per scene unit: a power of two."}),
+    field<&ViewConstants::near>("near", {.unit = "normalized units", .doc = "Nearest depth drawn."}),
+    field<&ViewConstants::far>("far", {.unit = "normalized units", .doc = "Depth of the scene's far end."}),
+};
+
+}  // namespace
+
+double SceneInfo::unit() const {
+    const double size = diagonal();
+    return size > 0 && std::isfinite(size) ? std::ldexp(1.0, -std::ilogb(size)) : 1;
+}
+
+SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize) {
+    constexpr std::int64_t kMostPixels = 1 << 24;
+    for (int raster = 4; raster > 1; --raster) {
+        const glm::ivec2 fine = size * raster;
+        const bool fits = std::max(fine.x, fine.y) <= maxTextureSize && std::int64_t{fine.x} * fine.y <= kMostPixels;
+        if (samples % (raster * raster) == 0 && fits) return {raster, samples / (raster * raster)};
+    }
+    return {1, samples};
+}
+
+glm::dmat4 View::clipFromView() const {
+    const glm::dvec2 size(fineSize());
+    // ndc = 2·pixel/size − 1, and (pixel + jitter handled in rayOffset) = (xy − rayOffset)/rayScale, at the corner of the pixel: + 0.5 − 0.5.
+    const glm::dvec2 scale = 2.0 / (rayScale * size);
+    const glm::dvec2 offset = -2.0 * rayOffset / (rayScale * size) - 1.0;
+    glm::dmat4 m(0);
+    m[0][0] = scale.x;
+    m[1][1] = scale.y;
+    if (orthographic) {
+        m[3][0] = offset.x;
+        m[3][1] = offset.y;
+        // far → 0, near → 1; depth is −z.
+        m[2][2] = 1 / (far - near);
+        m[3][2] = far / (far - near);
+        m[3][3] = 1;
+    } else {
+        m[2][0] = -offset.x;
+        m[2][1] = -offset.y;
+        m[2][3] = -1;
+        m[3][2] = near;
+    }
+    return m;
+}
+
+View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request) {
+    View view;
+    view.imageSize = request.imageSize;
+    view.region = request.region.size.x > 0 ? request.region : PixelRect{{0, 0}, request.imageSize};
+    view.raster = request.split.raster;
+    view.subFrame = request.subFrame;
+    view.jitter = subFrameJitter(request.subFrame, request.split.subFrames);
+    view.seed = request.seed;
+    view.dpi = request.dpi;
+    view.unit = scene.unit();
+    view.diagonal = scene.diagonal();
+    view.orthographic = camera.orthographicHeight > 0;
+
+    const glm::dmat3 basis = cameraBasis(camera, scene.up);
+    const glm::dmat3 toView = glm::transpose(basis);
+    view.viewFromWorld = glm::dmat4(toView);
+    view.viewFromWorld[3] = glm::dvec4(toView * -camera.position, 1);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row) view.viewFromWorld[column][row] *= view.unit;
+    view.worldFromView = glm::dmat4(basis);
+    for (int column = 0; column < 3; ++column) view.worldFromView[column] /= view.unit;
+    view.worldFromView[3] = glm::dvec4(camera.position, 1);
+
+    const glm::dvec2 size(view.fineSize());
+    double width;  // of the picture at unit depth, or in normalized units
+    if (view.orthographic) {
+        width = camera.orthographicHeight * view.unit * size.x / size.y;
+    } else if (camera.fov > 0) {
+        width = 2 * std::tan(glm::radians(camera.fov) / 2);
+    } else {
+        width = camera.sensorWidth / (camera.focalLength > 0 ? camera.focalLength : 35.0);
+    }
+    view.rayScale = glm::dvec2(width / size.x);
+    // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
+    view.rayOffset = view.rayScale * (view.jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
+
+    Bounds depths;
+    for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
+        const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x, corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
+        depths.add(glm::dvec3(0, 0, -(view.viewFromWorld * glm::dvec4(p, 1)).z));
+    }
+    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's size.
+    const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
+    view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
+    // Reversed float depth is as precise with a tiny near distance as with a large one.
+    view.near = camera.near > 0 ? camera.near * view.unit : view.orthographic ? 0 : std::ldexp(1.0, -24);
+    return view;
+}
+
+Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize) {
+    Camera camera;
+    camera.name = "framing";
+    camera.focalLength = 50;
+    const glm::dvec3 up = scene.up;
+    const glm::dvec3 side = up.y > 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, -1, 0);
+    const glm::dvec3 right = glm::cross(up, side);
+    const glm::dvec3 towards = glm::normalize(0.8 * right + 0.55 * up + side);
+    const Bounds& box = scene.bounds;
+    camera.lookAt = box.empty() ? glm::dvec3(0) : box.centre();
+    const double radius = box.empty() || box.diagonal() == 0 ? 1 : box.diagonal() / 2;
+    const double halfWidth = camera.sensorWidth / camera.focalLength / 2;
+    const double halfHeight = halfWidth * imageSize.y / imageSize.x;
+    // The sphere around everything just fits the narrower side, with a margin of 5 %.
+    const double half = std::atan(std::min(halfWidth, halfHeight));
+    camera.position = camera.lookAt + towards * (1.05 * radius / std::sin(half));
+    return camera;
+}
+
+Light defaultSun(const Camera& camera, const SceneInfo& scene) {
+    const glm::dmat3 basis = cameraBasis(camera, scene.up);
+    Light light;
+    light.name = "sun over the left shoulder";
+    light.direction = -glm::normalize(basis * glm::dvec3(-0.6, 0.8, 1.0));
+    return light;
+}
+
+UniformBlock viewBlock(const View& view) {
+    ViewConstants c{};
+    c.clipFromView = glm::mat4(view.clipFromView());
+    c.worldFromView = glm::mat4(view.worldFromView);
+    c.rayScaleExact = view.rayScale;
+    c.rayOffsetExact = view.rayOffset;
+    c.rayScale = view.rayScale;
+    c.rayOffset = view.rayOffset;
+    c.imageSize = view.fineSize();
+    c.origin = view.regionOrigin();
+    c.size = view.regionSize();
+    c.raster = view.raster;
+    c.firstSample = view.subFrame * view.raster * view.raster;
+    c.seed = view.seed;
+    c.orthographic = view.orthographic;
+    c.unit = static_cast<float>(view.unit);
+    c.near = static_cast<float>(view.near);
+    c.far = static_cast<float>(view.far);
+    return makeUniformBlock("view", 0, kViewConstants, &c);
+}
+
+}  // namespace limn

@@ -1,0 +1,89 @@
+// One view of the scene: where the camera is, and which pixels and samples of the picture are drawn.
+//
+// Fine pixels. A picture of n samples per pixel is drawn as m sub-frames, each on a raster k times finer, n = k²·m. A fine raster is
+// k² ordinary sub-frames, interleaved: effects that think in output pixels step k fine pixels, so that what they draw does not depend
+// on how n was split.
+//
+// Normalized units. All lengths on the GPU are scene units times a power of two that brings the scene's diagonal to [1, 2): scenes of
+// any size give the same bits.
+#pragma once
+
+#include "geometry/tri_mesh.h"
+#include "scene/scene.h"
+
+namespace limn {
+
+/// Facts about the scene that effects may need.
+struct SceneInfo {
+    Bounds bounds;                  ///< of the drawn objects' vertices, at the first declared frame; scene units
+    glm::dvec3 up{0, 1, 0};
+
+    double diagonal() const { return bounds.diagonal(); }
+    /// Normalized units per scene unit: a power of two.
+    double unit() const;
+};
+
+/// How n samples are split: n = raster² · subFrames.
+struct SampleSplit {
+    int raster = 1;
+    int subFrames = 1;
+};
+
+/// As fine a raster as divides n, fits the driver, and keeps a sub-frame below 2^24 pixels: triangles are then drawn least often.
+SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
+
+struct PixelRect {
+    glm::ivec2 origin{0};           ///< from the lower left
+    glm::ivec2 size{0};
+};
+
+struct View {
+    glm::ivec2 imageSize{0};        ///< of the whole picture, in output pixels
+    PixelRect region;               ///< the part that is drawn, in output pixels
+    int raster = 1;                 ///< fine pixels per output pixel, each way
+    int subFrame = 0;
+    glm::dvec2 jitter{0};           ///< added to fine pixel centres
+    unsigned seed = 0;
+
+    bool orthographic = false;
+    glm::dmat4 viewFromWorld{1};    ///< world in scene units → view in normalized units
+    glm::dmat4 worldFromView{1};
+    /// Where the ray of fine pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
+    /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
+    glm::dvec2 rayScale{1}, rayOffset{0};
+    double near = 0, far = 0;       ///< normalized units; `far` bounds orthographic depth and paper modes only
+    double unit = 1;                ///< normalized units per scene unit
+    double diagonal = 1;            ///< scene units
+    double dpi = 96;
+
+    glm::ivec2 fineSize() const { return imageSize * raster; }
+    glm::ivec2 regionOrigin() const { return region.origin * raster; }
+    glm::ivec2 regionSize() const { return region.size * raster; }
+    /// Clip space from view space for the whole picture: reversed depth, infinitely far (perspective) or linear (orthographic).
+    glm::dmat4 clipFromView() const;
+    /// A length of a parameter in normalized units.
+    double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
+    /// A width in the picture in fine pixels.
+    double finePixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi) * raster; }
+};
+
+struct ViewRequest {
+    glm::ivec2 imageSize{1280, 720};
+    PixelRect region;               ///< empty: everything
+    SampleSplit split;
+    int subFrame = 0;
+    unsigned seed = 0;
+    double dpi = 96;
+};
+
+View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request);
+
+/// The camera of a scene that has none: three-quarter view that frames everything.
+Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize);
+/// The light of a scene that has none: a sun over the camera's left shoulder.
+Light defaultSun(const Camera& camera, const SceneInfo& scene);
+
+/// The uniform block `view` that every shader sees.
+UniformBlock viewBlock(const View& view);
+
+}  // namespace limn

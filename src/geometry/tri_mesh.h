@@ -1,0 +1,55 @@
+// Triangles ready for the GPU, with only the attributes that something reads.
+#pragma once
+
+#include "scene/poly_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Axis-aligned box; empty when lo > hi.
+struct Bounds {
+    glm::dvec3 lo{std::numeric_limits<double>::infinity()};
+    glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
+
+    bool empty() const { return !(lo.x <= hi.x); }
+    void add(const glm::dvec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+    void add(const Bounds& b) { lo = glm::min(lo, b.lo), hi = glm::max(hi, b.hi); }
+    glm::dvec3 centre() const { return (lo + hi) * 0.5; }
+    double diagonal() const { return empty() ? 0 : glm::length(hi - lo); }
+};
+
+/// What the plan reads of a mesh.
+struct MeshNeeds {
+    bool normals = false;
+    bool uvs = false;
+    bool operator==(const MeshNeeds&) const = default;
+};
+
+struct TriMesh {
+    glm::dvec3 pivot{0};                       ///< positions are relative to it: float keeps its precision far from the origin
+    std::vector<glm::vec3> positions;          ///< mesh units
+    std::vector<glm::vec3> normals;            ///< unit length, or zero where the surface has none; empty unless asked for
+    std::vector<glm::vec2> uvs;                ///< empty unless asked for
+    std::vector<std::uint32_t> indices;        ///< three per triangle, counter-clockwise from outside
+    std::vector<std::uint32_t> triangleMaterial;  ///< index into PolyMesh::materialNames; empty = all 0
+    std::vector<std::uint32_t> trianglePart;      ///< index into PolyMesh::partNames; empty = all 0
+
+    std::size_t triangleCount() const { return indices.size() / 3; }
+};
+
+/// Faces meeting at less than this angle are smoothed where a file gives neither normals nor smoothing groups.
+inline constexpr double kSmoothAngleDegrees = 30;
+
+/// Triangulates (concave polygons filled right, holes in self-touching ones left open) and gathers the attributes asked for. Missing
+/// normals are made: by smoothing group where the file has them, else smooth across edges flatter than kSmoothAngleDegrees.
+/// Zero-area triangles are dropped. Parallel; the result does not depend on threads.
+TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs);
+
+/// Corner indices (0 … n−1) of the triangles that fill a polygon; n−2 of them unless it crosses itself.
+std::vector<std::uint32_t> triangulatePolygon(const std::vector<glm::dvec3>& polygon);
+
+}  // namespace limn

@@ -1,0 +1,225 @@
+#include "gl/objects.h"
+
+#include "base/error.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace limn::gl {
+namespace {
+
+GLenum internalFormat(Format format) {
+    switch (format) {
+        case Format::r8: return GL_R8;
+        case Format::rgba8: return GL_RGBA8;
+        case Format::r16f: return GL_R16F;
+        case Format::r32f: return GL_R32F;
+        case Format::rgba16f: return GL_RGBA16F;
+        case Format::rgba32f: return GL_RGBA32F;
+        case Format::r32ui: return GL_R32UI;
+        case Format::rg32ui: return GL_RG32UI;
+        case Format::depth32f: return GL_DEPTH_COMPONENT32F;
+        case Format::srgb8Array: return GL_SRGB8_ALPHA8;
+    }
+    return GL_NONE;
+}
+
+void label(GLenum kind, GLuint id, const std::string& text) { glObjectLabel(kind, id, static_cast<GLsizei>(text.size()), text.c_str()); }
+
+[[noreturn]] void outOfMemory(const std::string& what) { throw Error(ExitCode::outOfMemory, {}, fmt::format("the GL device has no memory for {}", what), "make the picture smaller or use fewer samples"); }
+
+}  // namespace
+
+void releaseBuffer(Id id) { glDeleteBuffers(1, &id); }
+void releaseTexture(Id id) { glDeleteTextures(1, &id); }
+void releaseFramebuffer(Id id) { glDeleteFramebuffers(1, &id); }
+void releaseVertexArray(Id id) { glDeleteVertexArrays(1, &id); }
+void releaseProgram(Id id) { glDeleteProgram(id); }
+void releaseQuery(Id id) { glDeleteQueries(1, &id); }
+
+Buffer::Buffer(std::span<const std::byte> data, const std::string& name) : size_(data.size()) {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    handle_ = Handle<releaseBuffer>(id);
+    label(GL_BUFFER, id, name);
+    // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
+    constexpr std::uint32_t nothing = 0;
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(data.empty() ? sizeof nothing : data.size()), data.empty() ? static_cast<const void*>(&nothing) : data.data(), GL_DYNAMIC_STORAGE_BIT);
+    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
+}
+
+void Buffer::write(std::span<const std::byte> data) {
+    if (!data.empty()) glNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(data.size()), data.data());
+}
+void Buffer::bindStorage(int slot) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), id()); }
+void Buffer::bindUniform(int slot) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(slot), id()); }
+
+Texture::Texture(Format format, glm::ivec2 size, const std::string& name) : format_(format), size_(size) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &id);
+    handle_ = Handle<releaseTexture>(id);
+    label(GL_TEXTURE, id, name);
+    glTextureStorage2D(id, 1, internalFormat(format), size.x, size.y);
+    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+Texture Texture::pictureArray(int side, int layers, const std::string& name) {
+    Texture texture;
+    texture.format_ = Format::srgb8Array;
+    texture.size_ = {side, side};
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+    texture.handle_ = Handle<releaseTexture>(id);
+    label(GL_TEXTURE, id, name);
+    glTextureStorage3D(id, 1, GL_SRGB8_ALPHA8, side, side, layers);
+    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+void Texture::writeLayer(int layer, glm::ivec2 origin, glm::ivec2 size, const std::uint8_t* rgba) const {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage3D(id(), 0, origin.x, origin.y, layer, size.x, size.y, 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+void Texture::bindSampler(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), id()); }
+void Texture::bindImage(int unit, bool readWrite) const {
+    glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, readWrite ? GL_READ_WRITE : GL_WRITE_ONLY, internalFormat(format_));
+}
+void Texture::clear(glm::vec4 value) const { glClearTexImage(id(), 0, info(format_).channels == 1 ? GL_RED : GL_RGBA, GL_FLOAT, &value); }
+
+std::vector<float> Texture::read(int channels) const {
+    std::vector<float> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
+    constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(id(), 0, format_ == Format::depth32f ? GL_DEPTH_COMPONENT : formats[channels], GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
+    return pixels;
+}
+
+std::vector<std::uint32_t> Texture::readIntegers(int channels) const {
+    std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
+    constexpr GLenum formats[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(id(), 0, formats[channels], GL_UNSIGNED_INT, static_cast<GLsizei>(pixels.size() * sizeof(std::uint32_t)), pixels.data());
+    return pixels;
+}
+
+Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture* depth, const std::string& name) {
+    GLuint id = 0;
+    glCreateFramebuffers(1, &id);
+    handle_ = Handle<releaseFramebuffer>(id);
+    label(GL_FRAMEBUFFER, id, name);
+    std::vector<GLenum> attachments;
+    for (const auto* colour : colours) {
+        attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
+        glNamedFramebufferTexture(id, attachments.back(), colour->id(), 0);
+    }
+    glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(attachments.size()), attachments.data());
+    if (depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth->id(), 0);
+    if (const GLenum status = glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(ExitCode::internal, {}, fmt::format("framebuffer '{}' is incomplete (0x{:x})", name, status), "please report this");
+}
+
+void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, handle_.get()); }
+void Framebuffer::clearFloat(int attachment, glm::vec4 value) const { glClearNamedFramebufferfv(handle_.get(), GL_COLOR, attachment, &value.x); }
+void Framebuffer::clearInteger(int attachment, glm::uvec4 value) const { glClearNamedFramebufferuiv(handle_.get(), GL_COLOR, attachment, &value.x); }
+void Framebuffer::clearDepth(float value) const { glClearNamedFramebufferfv(handle_.get(), GL_DEPTH, 0, &value); }
+
+VertexArray::VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& name) {
+    GLuint id = 0;
+    glCreateVertexArrays(1, &id);
+    handle_ = Handle<releaseVertexArray>(id);
+    label(GL_VERTEX_ARRAY, id, name);
+    glVertexArrayElementBuffer(id, indices.id());
+    GLuint binding = 0;
+    for (const auto& input : inputs) {
+        const auto location = static_cast<GLuint>(input.location);
+        glEnableVertexArrayAttrib(id, location);
+        glVertexArrayAttribBinding(id, location, binding);
+        if (input.components == 0) {
+            glVertexArrayAttribIFormat(id, location, 1, GL_UNSIGNED_INT, 0);
+            glVertexArrayVertexBuffer(id, binding, input.buffer->id(), 0, sizeof(std::uint32_t));
+            glVertexArrayBindingDivisor(id, binding, 1);
+        } else {
+            glVertexArrayAttribFormat(id, location, input.components, GL_FLOAT, GL_FALSE, 0);
+            glVertexArrayVertexBuffer(id, binding, input.buffer->id(), 0, static_cast<GLsizei>(sizeof(float)) * input.components);
+        }
+        ++binding;
+    }
+}
+
+void VertexArray::bind() const { glBindVertexArray(handle_.get()); }
+
+Program::Program(std::span<const ShaderStage> stages, const std::string& name) {
+    handle_ = Handle<releaseProgram>(glCreateProgram());
+    const GLuint id = handle_.get();
+    label(GL_PROGRAM, id, name);
+    const auto infoLog = [](GLuint object, auto getLength, auto getLog) {
+        GLint length = 0;
+        getLength(object, GL_INFO_LOG_LENGTH, &length);
+        std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
+        getLog(object, length, nullptr, text.data());
+        return text;
+    };
+    for (const auto& stage : stages) {
+        const GLenum kind = stage.kind == ShaderStage::Kind::vertex ? GL_VERTEX_SHADER : stage.kind == ShaderStage::Kind::fragment ? GL_FRAGMENT_SHADER : GL_COMPUTE_SHADER;
+        const GLuint shader = glCreateShader(kind);
+        const char* text = stage.source.c_str();
+        glShaderSource(shader, 1, &text, nullptr);
+        glCompileShader(shader);
+        GLint ok = 0;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+        const std::string log = ok ? "" : infoLog(shader, glGetShaderiv, glGetShaderInfoLog);
+        glAttachShader(id, shader);
+        glDeleteShader(shader);
+        if (!ok) throw Error(ExitCode::internal, {}, fmt::format("shader '{}' does not compile:\n{}", name, log), "please report this, with the output of limn doctor");
+    }
+    glLinkProgram(id);
+    GLint ok = 0;
+    glGetProgramiv(id, GL_LINK_STATUS, &ok);
+    if (!ok) throw Error(ExitCode::internal, {}, fmt::format("shader '{}' does not link:\n{}", name, infoLog(id, glGetProgramiv, glGetProgramInfoLog)), "please report this, with the output of limn doctor");
+}
+
+void Program::use() const { glUseProgram(handle_.get()); }
+void Program::setInt(const char* uniform, int value) const { glProgramUniform1i(handle_.get(), glGetUniformLocation(handle_.get(), uniform), value); }
+
+TimerQuery::TimerQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_TIME_ELAPSED, 1, &id);
+    handle_ = Handle<releaseQuery>(id);
+}
+void TimerQuery::begin() const { glBeginQuery(GL_TIME_ELAPSED, handle_.get()); }
+void TimerQuery::end() const { glEndQuery(GL_TIME_ELAPSED); }
+double TimerQuery::milliseconds() const {
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(handle_.get(), GL_QUERY_RESULT, &nanoseconds);
+    return static_cast<double>(nanoseconds) * 1e-6;
+}
+
+DebugGroup::DebugGroup(const std::string& name) { glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.c_str()); }
+DebugGroup::~DebugGroup() { glPopDebugGroup(); }
+
+void dispatch(glm::ivec2 size, glm::ivec2 group) {
+    const glm::ivec2 groups = (size + group - 1) / group;
+    glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
+    barrier();
+}
+void drawElements(const Buffer& commands, int count) {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));
+}
+void setViewport(glm::ivec2 origin, glm::ivec2 size) { glViewport(origin.x, origin.y, size.x, size.y); }
+void setDepthTest(DepthTest test) {
+    if (test == DepthTest::none) return glDisable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+}
+void barrier() { glMemoryBarrier(GL_ALL_BARRIER_BITS); }
+void finish() { glFinish(); }
+
+}  // namespace limn::gl

@@ -1,0 +1,171 @@
+// GL objects as move-only values: id 0 is empty, the constructor does the work and throws, the destructor releases.
+// No GL name leaves this folder.
+#pragma once
+
+#include "graph/format.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn::gl {
+
+using Id = unsigned;
+
+/// An owned GL name and how to give it back.
+template <void (*Release)(Id)>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(Id id) : id_(id) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Handle& operator=(Handle&& other) noexcept { std::swap(id_, other.id_); return *this; }
+    ~Handle() { if (id_) Release(id_); }
+    Id get() const { return id_; }
+    explicit operator bool() const { return id_ != 0; }
+
+private:
+    Id id_ = 0;
+};
+
+void releaseBuffer(Id);
+void releaseTexture(Id);
+void releaseFramebuffer(Id);
+void releaseVertexArray(Id);
+void releaseProgram(Id);
+void releaseQuery(Id);
+
+/// Immutable when made from data; writable when made by size.
+class Buffer {
+public:
+    Buffer() = default;
+    Buffer(std::span<const std::byte> data, const std::string& label);
+    void write(std::span<const std::byte> data);   ///< same size as made with
+    void bindStorage(int slot) const;
+    void bindUniform(int slot) const;
+    std::size_t size() const { return size_; }
+    Id id() const { return handle_.get(); }
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    Handle<releaseBuffer> handle_;
+    std::size_t size_ = 0;
+};
+
+/// 2D textures, one level, nearest, clamped; or an array of RGBA8 sRGB layers for pictures.
+class Texture {
+public:
+    Texture() = default;
+    Texture(Format format, glm::ivec2 size, const std::string& label);
+    static Texture pictureArray(int side, int layers, const std::string& label);
+    void writeLayer(int layer, glm::ivec2 origin, glm::ivec2 size, const std::uint8_t* rgba) const;
+
+    void bindSampler(int unit) const;
+    void bindImage(int unit, bool readWrite) const;
+    void clear(glm::vec4 value) const;
+    /// Floats of the region, rows from the bottom as GL has them; integers come as floats.
+    std::vector<float> read(int channels) const;
+    std::vector<std::uint32_t> readIntegers(int channels) const;
+
+    Format format() const { return format_; }
+    glm::ivec2 size() const { return size_; }
+    Id id() const { return handle_.get(); }
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    Handle<releaseTexture> handle_;
+    Format format_ = Format::r32f;
+    glm::ivec2 size_{0};
+};
+
+/// Colour attachments in order, and depth.
+class Framebuffer {
+public:
+    Framebuffer() = default;
+    Framebuffer(std::span<const Texture* const> colours, const Texture* depth, const std::string& label);
+    void bind() const;
+    void clearFloat(int attachment, glm::vec4 value) const;
+    void clearInteger(int attachment, glm::uvec4 value) const;
+    void clearDepth(float value) const;
+
+private:
+    Handle<releaseFramebuffer> handle_;
+};
+
+struct VertexInput {
+    const Buffer* buffer;
+    int location;
+    int components;      ///< floats; 0 = one unsigned integer per instance
+};
+
+class VertexArray {
+public:
+    VertexArray() = default;
+    VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& label);
+    void bind() const;
+
+private:
+    Handle<releaseVertexArray> handle_;
+};
+
+struct ShaderStage {
+    enum class Kind { vertex, fragment, compute };
+    Kind kind;
+    std::string source;
+};
+
+class Program {
+public:
+    Program() = default;
+    /// Throws Error (internal) with the compiler's words.
+    Program(std::span<const ShaderStage> stages, const std::string& label);
+    void use() const;
+    void setInt(const char* uniform, int value) const;
+
+private:
+    Handle<releaseProgram> handle_;
+};
+
+/// Elapsed GPU time between begin and end.
+class TimerQuery {
+public:
+    TimerQuery();
+    void begin() const;
+    void end() const;
+    double milliseconds() const;   ///< waits for the result
+
+private:
+    Handle<releaseQuery> handle_;
+};
+
+/// Names everything drawn in its lifetime, for debuggers.
+class DebugGroup {
+public:
+    explicit DebugGroup(const std::string& name);
+    ~DebugGroup();
+    DebugGroup(const DebugGroup&) = delete;
+    DebugGroup& operator=(const DebugGroup&) = delete;
+};
+
+/// Counter-part of glDrawElementsIndirect's record.
+struct DrawCommand {
+    std::uint32_t count, instanceCount, firstIndex;
+    std::int32_t baseVertex;
+    std::uint32_t baseInstance;
+};
+
+enum class DepthTest { none, greater };
+
+void dispatch(glm::ivec2 size, glm::ivec2 group);      ///< enough groups to cover the size, then a barrier
+void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
+void setViewport(glm::ivec2 origin, glm::ivec2 size);
+void setDepthTest(DepthTest test);
+void barrier();
+void finish();
+
+}  // namespace limn::gl

@@ -1,0 +1,132 @@
+// What could be drawn (Graph) and what will be (Plan). Pure data and pure functions: no GL here.
+//
+// A pass declares what it reads and writes; it runs if, and only if, something that was asked for needs what it writes. The same holds
+// for each single thing it writes: a texture that nobody reads is neither made nor attached.
+#pragma once
+
+#include "base/params.h"
+#include "graph/format.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+/// An image that passes exchange; an index into Graph::resources.
+struct ResourceId {
+    int index = -1;
+    bool operator==(const ResourceId&) const = default;
+};
+
+struct Resource {
+    std::string name;
+    Format format = Format::r32f;
+    glm::ivec2 size{0};
+    bool persistent = false;    ///< keeps its content from one sub-frame to the next
+};
+
+/// Data of the scene that shaders read.
+enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32 };
+constexpr SceneData operator|(SceneData a, SceneData b) { return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
+constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
+
+struct Read {
+    std::string name;           ///< of the sampler in the shader
+    ResourceId resource;
+};
+
+struct Write {
+    std::string name;           ///< of the image or output in the shader
+    ResourceId resource;
+    SceneData needs = SceneData::none;   ///< scene data read only to write this
+    glm::vec4 clear{0};         ///< raster passes: what stands where nothing is drawn
+    bool update = false;        ///< compute passes: read, changed and written back
+};
+
+/// One drawing of the scene into a part of a raster pass's images.
+struct Drawing {
+    glm::ivec4 viewport{0};     ///< origin and size
+    int number = 0;             ///< what the shader's uniform `drawing` says
+};
+
+struct Pass {
+    enum class Kind { compute, raster };
+
+    std::string name;
+    std::string slot, technique;
+    Kind kind = Kind::compute;
+    std::string shader;         ///< path below shaders/ without extension
+    std::vector<std::pair<std::string, std::string>> defines;
+    std::vector<Read> reads;
+    std::vector<Write> writes;  ///< a D32F write of a raster pass is its depth buffer
+    UniformBlock params;
+    SceneData needs = SceneData::none;
+    std::vector<Drawing> drawings;       ///< raster passes; empty: the scene once, as the picture's camera sees it
+    std::string note;           ///< for people: "8 taps per pixel"
+};
+
+struct Graph {
+    std::vector<Resource> resources;
+    std::vector<Pass> passes;
+    std::vector<std::string> absent;   ///< slots that were not asked for, for the explanation
+
+    ResourceId add(Resource resource) {
+        resources.push_back(std::move(resource));
+        return {static_cast<int>(resources.size()) - 1};
+    }
+};
+
+/// A wanted result and what to call it.
+struct Wanted {
+    std::string name;
+    ResourceId resource;
+};
+
+struct PlannedPass {
+    int pass = 0;                 ///< index into Graph::passes
+    std::vector<bool> writes;     ///< of each Pass::writes: is it made?
+    std::string reason;           ///< who asked for it
+};
+
+struct CulledPass {
+    int pass = 0;
+    std::string reason;
+};
+
+/// A texture in memory, shared by resources whose lives do not overlap.
+struct PhysicalTexture {
+    Format format;
+    glm::ivec2 size;
+    bool persistent = false;
+    std::vector<int> resources;   ///< in the order of their lives
+    std::uint64_t bytes() const { return static_cast<std::uint64_t>(info(format).bytes) * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y); }
+};
+
+struct Plan {
+    std::vector<PlannedPass> passes;      ///< in order of execution
+    std::vector<CulledPass> culled;
+    std::vector<PhysicalTexture> textures;
+    std::vector<int> textureOf;           ///< resource index → index into textures, or −1 when it is not made
+    SceneData sceneData = SceneData::none;
+
+    std::uint64_t textureBytes() const;
+    bool makes(ResourceId resource) const { return resource.index >= 0 && textureOf[static_cast<std::size_t>(resource.index)] >= 0; }
+};
+
+/// Culls, orders, and lays resources out in as few textures as their lifetimes allow. Throws Errors (internal) naming *every* resource
+/// that is read but not written, written twice, or part of a cycle.
+Plan compile(const Graph& graph, std::span<const Wanted> wanted);
+
+/// Facts about a picture that the explanation shows above the passes: name and value.
+using PlanFacts = std::vector<std::pair<std::string, std::string>>;
+enum class PlanFormat { text, json, dot };
+
+/// `milliseconds`: of each planned pass, empty when not measured.
+std::string explain(const Graph& graph, const Plan& plan, PlanFormat format, const PlanFacts& facts, std::span<const double> milliseconds = {});
+
+}  // namespace limn

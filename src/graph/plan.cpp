@@ -1,0 +1,133 @@
+#include "graph/graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limn {
+namespace {
+
+class Compiler {
+public:
+    Compiler(const Graph& graph, std::span<const Wanted> wanted) : graph_(graph), wanted_(wanted) {}
+
+    Plan compile() {
+        findWriters();
+        state_.assign(graph_.passes.size(), State::unseen);
+        reason_.resize(graph_.passes.size());
+        live_.assign(graph_.resources.size(), false);
+        for (const auto& want : wanted_) need(want.resource, fmt::format("asked for: {}", want.name));
+        errors_.throwIfAny();
+        collectPasses();
+        layOutTextures();
+        return std::move(plan_);
+    }
+
+private:
+    enum class State { unseen, open, done };
+
+    void fail(std::string problem) { errors_.add({ExitCode::internal, {}, std::move(problem), "please report this"}); }
+
+    void findWriters() {
+        writer_.assign(graph_.resources.size(), -1);
+        for (std::size_t p = 0; p < graph_.passes.size(); ++p) {
+            for (const auto& write : graph_.passes[p].writes) {
+                int& writer = writer_[index(write.resource)];
+                if (writer >= 0) fail(fmt::format("'{}' is written by {} and by {}", graph_.resources[index(write.resource)].name, graph_.passes[static_cast<std::size_t>(writer)].name, graph_.passes[p].name));
+                writer = static_cast<int>(p);
+            }
+        }
+    }
+
+    void need(ResourceId resource, const std::string& reason) {
+        const std::string& name = graph_.resources[index(resource)].name;
+        live_[index(resource)] = true;
+        const int writer = writer_[index(resource)];
+        if (writer < 0) return fail(fmt::format("{}, but nothing writes '{}'", reason, name));
+        const auto p = static_cast<std::size_t>(writer);
+        if (state_[p] == State::done) return;
+        const Pass& pass = graph_.passes[p];
+        if (state_[p] == State::open) return fail(fmt::format("{} needs its own result '{}'", pass.name, name));
+        state_[p] = State::open;
+        reason_[p] = reason;
+        for (const auto& read : pass.reads) need(read.resource, fmt::format("{} reads {}", pass.name, graph_.resources[index(read.resource)].name));
+        state_[p] = State::done;
+    }
+
+    void collectPasses() {
+        // Passes are declared after what they read, so that the order of declaration is an order of execution.
+        for (std::size_t p = 0; p < graph_.passes.size(); ++p) {
+            const Pass& pass = graph_.passes[p];
+            if (state_[p] != State::done) {
+                std::string names;
+                for (const auto& write : pass.writes) names += (names.empty() ? "" : ", ") + graph_.resources[index(write.resource)].name;
+                plan_.culled.push_back({static_cast<int>(p), "nothing reads " + names});
+                continue;
+            }
+            PlannedPass planned{static_cast<int>(p), {}, reason_[p]};
+            plan_.sceneData = plan_.sceneData | pass.needs;
+            for (const auto& write : pass.writes) {
+                // A depth buffer serves its own pass even if nobody reads it afterwards.
+                const bool isOwnDepth = pass.kind == Pass::Kind::raster && graph_.resources[index(write.resource)].format == Format::depth32f;
+                if (isOwnDepth) live_[index(write.resource)] = true;
+                planned.writes.push_back(live_[index(write.resource)]);
+                if (planned.writes.back()) plan_.sceneData = plan_.sceneData | write.needs;
+            }
+            plan_.passes.push_back(std::move(planned));
+        }
+    }
+
+    void layOutTextures() {
+        constexpr int kForever = 1 << 30;
+        std::vector<int> lastUse(graph_.resources.size(), -1);
+        for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
+            const Pass& pass = graph_.passes[static_cast<std::size_t>(plan_.passes[i].pass)];
+            for (const auto& read : pass.reads) lastUse[index(read.resource)] = static_cast<int>(i);
+            for (const auto& write : pass.writes) lastUse[index(write.resource)] = std::max(lastUse[index(write.resource)], static_cast<int>(i));
+        }
+        for (const auto& want : wanted_) lastUse[index(want.resource)] = kForever;
+
+        plan_.textureOf.assign(graph_.resources.size(), -1);
+        std::vector<int> busyUntil;
+        for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
+            const Pass& pass = graph_.passes[static_cast<std::size_t>(plan_.passes[i].pass)];
+            for (std::size_t w = 0; w < pass.writes.size(); ++w) {
+                if (!plan_.passes[i].writes[w]) continue;
+                const std::size_t r = index(pass.writes[w].resource);
+                const Resource& resource = graph_.resources[r];
+                std::size_t slot = 0;
+                for (; slot < plan_.textures.size(); ++slot) {
+                    const auto& texture = plan_.textures[slot];
+                    if (!resource.persistent && !texture.persistent && texture.format == resource.format && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i)) break;
+                }
+                if (slot == plan_.textures.size()) plan_.textures.push_back({resource.format, resource.size, resource.persistent, {}}), busyUntil.push_back(0);
+                plan_.textures[slot].resources.push_back(static_cast<int>(r));
+                plan_.textureOf[r] = static_cast<int>(slot);
+                busyUntil[slot] = resource.persistent ? kForever : lastUse[r];
+            }
+        }
+    }
+
+    static std::size_t index(ResourceId id) { return static_cast<std::size_t>(id.index); }
+
+    const Graph& graph_;
+    std::span<const Wanted> wanted_;
+    ErrorCollector errors_;
+    Plan plan_;
+    std::vector<int> writer_;
+    std::vector<State> state_;
+    std::vector<std::string> reason_;
+    std::vector<bool> live_;
+};
+
+}  // namespace
+
+std::uint64_t Plan::textureBytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& texture : textures) bytes += texture.bytes();
+    return bytes;
+}
+
+Plan compile(const Graph& graph, std::span<const Wanted> wanted) { return Compiler(graph, wanted).compile(); }
+
+}  // namespace limn

@@ -1,0 +1,61 @@
+// Images in memory, and files of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+/// Rows from the top, channels interleaved. Floats are linear and, with alpha, premultiplied.
+struct Image {
+    int width = 0, height = 0, channels = 0;
+    std::vector<float> pixels;
+
+    float* at(int x, int y) { return pixels.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels); }
+    const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+};
+
+/// One named image of a picture: an AOV. Integer AOVs carry whole numbers below 2^24 in their floats.
+struct Layer {
+    std::string name;
+    std::vector<std::string> channels;   ///< "R", "G" ...: as EXR names them
+    bool isColour = false;               ///< display-encoded in 8 and 16 bit files; half precision in EXR
+    bool isInteger = false;
+    Image image;
+};
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+enum class FileFormat { png, jpeg, tiff, exr };
+
+/// By extension: .png .jpg .jpeg .tif .tiff .exr
+std::optional<FileFormat> fileFormat(const std::filesystem::path& path);
+/// Holds several layers in one file.
+inline bool isMultiLayer(FileFormat format) { return format == FileFormat::exr; }
+
+struct EncodeOptions {
+    int bits = 8;             ///< 8 or 16: PNG and TIFF
+    int compression = 1;      ///< zlib level of PNG: 1 fast … 9 small
+    int quality = 92;         ///< JPEG
+};
+
+/// The bytes of a file. One layer, except for EXR. Same layers, same bytes: no dates, no times. Throws Error.
+std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
+
+/// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.
+Image readImage(const std::filesystem::path& path);
+
+/// Loads the image library's module in the background, for those who will need it soon.
+void preloadImageLibrary();
+
+/// "in the format, encoded or quantized": 8 or 16 bit integers of a layer, display-encoded if it is a colour.
+std::vector<std::uint8_t> quantize8(const Layer& layer);
+std::vector<std::uint16_t> quantize16(const Layer& layer);
+
+}  // namespace limn

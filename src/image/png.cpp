@@ -1,0 +1,56 @@
+#include "base/error.h"
+#include "image/codecs.h"
+
+#include <fmt/format.h>
+#include <spng.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+namespace limn {
+
+std::vector<std::byte> encodePng(const Layer& layer, const Metadata& metadata, const EncodeOptions& options) {
+    const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+    const auto check = [](int status) {
+        if (status != 0) throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {}, fmt::format("PNG encoding failed ({})", spng_strerror(status)));
+    };
+    constexpr std::uint8_t colorTypes[] = {0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
+    spng_ihdr header{};
+    header.width = static_cast<std::uint32_t>(layer.image.width);
+    header.height = static_cast<std::uint32_t>(layer.image.height);
+    header.bit_depth = static_cast<std::uint8_t>(options.bits);
+    header.color_type = colorTypes[layer.image.channels];
+    check(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
+    check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, options.compression));
+    // Flat stylized areas compress best with the simplest prediction, which is also the fastest.
+    check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, options.compression <= 2 ? SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP : SPNG_FILTER_CHOICE_ALL));
+    check(spng_set_ihdr(context.get(), &header));
+    if (layer.isColour) check(spng_set_srgb(context.get(), 0));
+    std::vector<spng_text> texts;
+    for (const auto& [key, value] : metadata) {
+        spng_text text{};
+        std::strncpy(text.keyword, key.c_str(), sizeof text.keyword - 1);
+        text.type = SPNG_TEXT;
+        text.text = const_cast<char*>(value.c_str());
+        text.length = value.size();
+        texts.push_back(text);
+    }
+    if (!texts.empty()) check(spng_set_text(context.get(), texts.data(), static_cast<std::uint32_t>(texts.size())));
+
+    if (options.bits == 16) {
+        const auto pixels = quantize16(layer);
+        check(spng_encode_image(context.get(), pixels.data(), pixels.size() * 2, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
+    } else {
+        const auto pixels = quantize8(layer);
+        check(spng_encode_image(context.get(), pixels.data(), pixels.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
+    }
+    std::size_t size = 0;
+    int status = 0;
+    const std::unique_ptr<void, void (*)(void*)> buffer(spng_get_png_buffer(context.get(), &size, &status), std::free);
+    check(status);
+    const auto* bytes = static_cast<const std::byte*>(buffer.get());
+    return {bytes, bytes + size};
+}
+
+}  // namespace limn

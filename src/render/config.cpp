@@ -1,0 +1,202 @@
+#include "render/config.h"
+
+#include "base/color.h"
+#include "base/text.h"
+#include "config/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace limn {
+namespace {
+
+struct Header {
+    std::string scene, camera, frames;
+    Accuracy accuracy = Accuracy::exact;
+};
+constexpr Field kHeader[] = {
+    field<&Header::scene>("scene", {.required = true, .doc = "Scene file or OBJ, relative to this file."}),
+    field<&Header::camera>("camera", {.doc = "Name of the camera; the scene's first if left out."}),
+    field<&Header::accuracy>("accuracy", {.doc = "\"exact\": analytic evaluation per pixel; \"fast\": the hardware's interpolation."}),
+    field<&Header::frames>("frames", {.doc = "Range of frames to draw, such as \"1-24\"; narrows the scene's."}),
+};
+
+constexpr Field kImage[] = {
+    field<&ImageSettings::size>("size", {.unit = "pixels", .min = 1, .max = 65536, .keyable = false, .doc = "Width and height of the picture."}),
+    field<&ImageSettings::samples>("samples", {.min = 1, .max = 4096, .accuracy = true, .keyable = false, .doc = "Samples per pixel: antialiasing, and less noise."}),
+    field<&ImageSettings::dpi>("dpi", {.unit = "pixels per inch", .min = 1, .max = 100000, .doc = "Gives millimetres a meaning."}),
+};
+
+constexpr Field kOutput[] = {
+    field<&EncodeOptions::bits>("bits", {.min = 8, .max = 16, .doc = "Bits per channel of PNG and TIFF: 8 or 16."}),
+    field<&EncodeOptions::compression>("compression", {.min = 0, .max = 9, .doc = "Compression of PNG: 1 fast to 9 small."}),
+    field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100, .doc = "Quality of JPEG."}),
+};
+
+/// The range of frames "a-b" or "a".
+std::optional<FrameRange> parseFrames(std::string_view text) {
+    const auto dash = text.find('-', 1);
+    const auto first = parseNumber(text.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : parseNumber(text.substr(dash + 1));
+    const auto isFrame = [](double f) { return std::abs(f) < 1e9 && f == static_cast<int>(f); };
+    if (!first || !last || !isFrame(*first) || !isFrame(*last) || *last < *first) return std::nullopt;
+    return FrameRange{static_cast<int>(*first), static_cast<int>(*last)};
+}
+
+class ConfigReader {
+public:
+    ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) : document_(std::move(document)), overrides_(overrides) {
+        for (const auto& setting : overrides.settings) applySetting(document_, setting);
+        config_.file = path;
+        config_.hash = Hash().add(canonicalText(document_)).hex();
+    }
+
+    RenderConfig read() {
+        static constexpr std::string_view sections[] = {"image", "shading", "ao", "edges", "output"};
+        Header header;
+        readFields(document_, kHeader, &header, nullptr, "the config", errors_, sections);
+        config_.accuracy = header.accuracy;
+        config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
+        config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
+        if (!header.scene.empty()) {
+            config_.scene = config_.file.parent_path() / header.scene;
+            if (!std::filesystem::exists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the config", ExitCode::missingInput);
+        }
+        if (!header.frames.empty() && !(config_.frames = parseFrames(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
+        readImage();
+        readEffects();
+        readOutput();
+        errors_.throwIfAny();
+        return std::move(config_);
+    }
+
+private:
+    void fail(const Node& node, std::string problem, std::string remedy, ExitCode code = ExitCode::usage) { errors_.add({code, node.where, std::move(problem), std::move(remedy)}); }
+
+    void readImage() {
+        const Node* node = document_.find("image");
+        if (!node) return;
+        static constexpr std::string_view alsoKnown[] = {"seed", "background"};
+        readFields(*node, kImage, &config_.image, nullptr, "[image]", errors_, alsoKnown);
+        if (const Node* seed = node->find("seed")) {
+            const auto* number = std::get_if<std::int64_t>(&seed->value);
+            if (seed->text() && *seed->text() == "frame") config_.image.seedIsFrame = true;
+            else if (number && *number >= 0 && *number < (std::int64_t{1} << 31)) config_.image.seed = static_cast<unsigned>(*number);
+            else fail(*seed, "'seed' in [image] must be a whole number from 0 or \"frame\"", "");
+        }
+        if (const Node* background = node->find("background")) {
+            if (background->text() && *background->text() == "transparent") config_.image.transparent = true;
+            else if (auto problem = fieldType<Color>().read(&config_.image.background, *background, kImage[0])) fail(*background, "'background' in [image] " + *problem, "or \"transparent\"");
+        }
+    }
+
+    void readEffects() {
+        const Node* shading = document_.find("shading");
+        config_.shading = shading ? readChoice(*shading, "shading", "", "[shading]", errors_) : defaultChoice("shading", "flat");
+        if (const Node* ao = document_.find("ao")) {
+            static constexpr std::string_view alsoKnown[] = {"filter"};
+            config_.ao = readChoice(*ao, "ao", "", "[ao]", errors_, alsoKnown);
+            if (const Node* filter = ao->find("filter")) {
+                if (filter->isArray()) for (const auto& entry : filter->array()) config_.aoFilters.push_back(readChoice(entry, "filter", "", "filter of [ao]", errors_));
+                else config_.aoFilters.push_back(readChoice(*filter, "filter", "", "filter of [ao]", errors_));
+            }
+        }
+        if (const Node* edges = document_.find("edges")) {
+            if (edges->isArray()) for (const auto& layer : edges->array()) config_.edges.push_back(readChoice(layer, "edges", "", "[[edges]]", errors_));
+            else config_.edges.push_back(readChoice(*edges, "edges", "", "[edges]", errors_));
+        }
+        config_.composite = defaultChoice("composite", "over");
+        // What [image] says of the background is the composite's business.
+        applySettings(config_.composite, config_.image.transparent ? "transparent = true"
+                                                                   : fmt::format("background = [{}, {}, {}]", config_.image.background.r, config_.image.background.g, config_.image.background.b));
+    }
+
+    void readOutput() {
+        static constexpr std::string_view alsoKnown[] = {"path", "aovs"};
+        const Node* node = document_.find("output");
+        const Node* path = node ? node->find("path") : nullptr;
+        if (node) {
+            readFields(*node, kOutput, &config_.output.encode, nullptr, "[output]", errors_, alsoKnown);
+            if (config_.output.encode.bits != 8 && config_.output.encode.bits != 16) fail(*node->find("bits"), "'bits' in [output] must be 8 or 16", "");
+            if (path && !path->text()) fail(*path, "'path' in [output] must be text", "");
+            else if (path) config_.output.path = config_.file.parent_path() / *path->text();
+            if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
+        }
+        if (!overrides_.output.empty()) config_.output.path = overrides_.output;
+        // Without a word about where to: beside the working directory, under the config's name.
+        if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
+        if (overrides_.output.empty() && !fileFormat(config_.output.path))
+            fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()), "end the path in .png, .jpg, .tif or .exr");
+    }
+
+    void readAovs(const Node& node) {
+        config_.output.aovs.clear();
+        if (!node.isArray()) return fail(node, "'aovs' in [output] must be a list of names", "write aovs = [\"beauty\", \"depth\"]");
+        std::vector<std::string> names;
+        for (const Aov* aov : aov::all) names.emplace_back(aov->name);
+        for (const auto& entry : node.array()) {
+            const Aov* aov = entry.text() ? findAov(*entry.text()) : nullptr;
+            if (!aov) fail(entry, fmt::format("there is no AOV '{}'", entry.text() ? *entry.text() : "?"), nameRemedy(entry.text() ? *entry.text() : "", names));
+            else if (std::find(config_.output.aovs.begin(), config_.output.aovs.end(), aov) == config_.output.aovs.end()) config_.output.aovs.push_back(aov);
+            if (aov && !available(*aov)) fail(entry, fmt::format("nothing makes the AOV '{}'", aov->name), fmt::format("add a section [{}]", aov == &aov::edges ? "edges" : "ao"));
+        }
+        if (node.array().empty()) fail(node, "'aovs' in [output] is empty", "name at least \"beauty\"");
+    }
+
+    bool available(const Aov& aov) const {
+        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw) return config_.ao.has_value();
+        if (&aov == &aov::edges) return !config_.edges.empty();
+        return true;
+    }
+
+    Node document_;
+    const ConfigOverrides& overrides_;
+    RenderConfig config_;
+    ErrorCollector errors_;
+};
+
+}  // namespace
+
+std::vector<ConfigSection> configSections() {
+    return {{"", "top of the file", kHeader}, {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")", kImage},
+            {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput}};
+}
+
+std::string_view quickstartStyle() {
+    return R"([image]
+size = [1280, 720]
+samples = 8
+background = "#f4efe4"
+
+[shading]
+technique = "toon"
+bands = 4
+floor = 0.28
+
+[ao]
+technique = "toon_ssao"
+radius = "4%"
+points = 16
+filter = { technique = "gaussian", iterations = 3 }
+
+[[edges]]
+technique = "depth_normal"
+width = "2px"
+color = "#2a2320"
+)";
+}
+
+RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) { return ConfigReader(std::move(document), path, overrides).read(); }
+
+RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".obj") return parseRenderConfig(readDocument(path), path, overrides);
+    if (!std::filesystem::exists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
+    Node document = parseDocument(quickstartStyle(), "the quickstart's style");
+    std::get<Node::Table>(document.value).emplace_back("scene", Node{{path.string()}, path.filename().string(), {}});
+    return parseRenderConfig(std::move(document), path, overrides);
+}
+
+}  // namespace limn

@@ -1,0 +1,69 @@
+// A render config: what a person asked for, read and checked.
+#pragma once
+
+#include "effects/technique.h"
+#include "image/image.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+enum class Accuracy { exact, fast };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<Accuracy> = {"exact", "fast"};
+
+struct ImageSettings {
+    glm::ivec2 size{1280, 720};
+    int samples = 8;
+    unsigned seed = 0;
+    bool seedIsFrame = false;
+    Color background{1, 1, 1};
+    bool transparent = false;
+    double dpi = 96;
+};
+
+struct OutputSettings {
+    std::filesystem::path path;              ///< #### is the frame number
+    std::vector<const Aov*> aovs{&aov::beauty};
+    EncodeOptions encode;
+};
+
+struct RenderConfig {
+    std::filesystem::path file;              ///< what it was read from
+    std::filesystem::path scene;             ///< scene file, or an OBJ
+    std::string camera;                      ///< empty: the scene's first
+    Accuracy accuracy = Accuracy::exact;
+    ImageSettings image;
+    TechniqueChoice geometry, shading, composite;
+    std::optional<TechniqueChoice> ao;
+    std::vector<TechniqueChoice> aoFilters;  ///< applied in order
+    std::vector<TechniqueChoice> edges;      ///< layers, drawn in order
+    std::optional<FrameRange> frames;        ///< narrows the scene's
+    OutputSettings output;
+    std::string hash;                        ///< of everything in the config, includes and settings applied
+};
+
+struct ConfigSection {
+    std::string_view name, doc;
+    Schema schema;
+};
+/// Sections that are no technique, for the parameter reference.
+std::vector<ConfigSection> configSections();
+
+/// What the command line adds to a config.
+struct ConfigOverrides {
+    std::vector<std::string> settings;       ///< KEY=VALUE
+    std::string camera;
+    std::string output;
+};
+
+/// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).
+RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides = {});
+RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides = {});
+
+/// The style in which a bare OBJ is drawn, as TOML.
+std::string_view quickstartStyle();
+
+}  // namespace limn

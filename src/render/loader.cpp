@@ -1,0 +1,162 @@
+#include "render/loader.h"
+
+#include "base/file.h"
+#include "base/log.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace limn {
+namespace {
+
+std::size_t meshIndex(const Scene& scene, const std::string& name) {
+    const auto it = std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { return mesh.name == name; });
+    return static_cast<std::size_t>(it - scene.meshes.begin());
+}
+
+bool isObj(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".obj";
+}
+
+/// Box of the vertices that faces use, transformed one by one: the box of a turned box would be too large.
+Bounds instanceBounds(const PolyMesh& mesh, const glm::dmat4& worldFromMesh) {
+    Bounds bounds;
+    const bool identity = worldFromMesh == glm::dmat4(1);
+    for (const auto v : mesh.cornerPosition) bounds.add(identity ? mesh.positions[v] : glm::dvec3(worldFromMesh * glm::dvec4(mesh.positions[v], 1)));
+    return bounds;
+}
+
+/// Gives every material that an instance may show a number; 0 is the default.
+class MaterialTable {
+public:
+    MaterialTable(const LoadedScene& loaded, double frame) : loaded_(loaded) {
+        materials.push_back({.name = ""});
+        for (const auto& material : loaded.scene.materials) byName_[material.base.name] = add(material.at(frame));
+    }
+
+    std::uint32_t named(const std::string& name) const { return byName_.at(name); }
+
+    /// Of a mesh's own material: the scene's of that name, else the MTL's, else the default.
+    std::uint32_t ofMesh(std::size_t mesh, const std::string& name) {
+        if (const auto it = byName_.find(name); it != byName_.end()) return it->second;
+        const auto [it, isNew] = byMesh_.emplace(std::pair(mesh, name), 0);
+        if (isNew)
+            for (const auto& material : loaded_.meshes[mesh].materials)
+                if (material.name == name) it->second = add(material);
+        return it->second;
+    }
+
+    std::vector<Material> materials;
+
+private:
+    std::uint32_t add(Material material) {
+        materials.push_back(std::move(material));
+        return static_cast<std::uint32_t>(materials.size() - 1);
+    }
+
+    const LoadedScene& loaded_;
+    std::map<std::string, std::uint32_t> byName_;
+    std::map<std::pair<std::size_t, std::string>, std::uint32_t> byMesh_;
+};
+
+}  // namespace
+
+LoadedScene loadScene(const std::filesystem::path& path) {
+    LoadedScene loaded;
+    std::vector<std::filesystem::path> files;
+    if (isObj(path)) loaded.scene = sceneFromObj(path);
+    else loaded.scene = readScene(path, &files);
+
+    const auto& meshes = loaded.scene.meshes;
+    loaded.meshes.resize(meshes.size());
+    std::vector<bool> drawn(meshes.size());
+    for (const auto& instance : loaded.scene.instances) drawn[meshIndex(loaded.scene, instance.base.mesh)] = true;
+
+    std::vector<std::uint64_t> hashes(meshes.size());
+    std::vector<std::optional<Error>> failed(meshes.size());
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
+        if (!drawn[i]) return;
+        try {
+            const MappedFile file(meshes[i].file);
+            auto obj = parseObj(file.text(), meshes[i].file);
+            loaded.meshes[i] = {std::move(obj.mesh), {}, std::move(obj.warnings)};
+            loaded.meshes[i].materials = readMaterials(meshes[i].file, loaded.meshes[i].poly, loaded.meshes[i].warnings);
+            // Size and a sample of the text: reading every byte again would cost as much as parsing it.
+            Hash hash;
+            hash.add(std::to_string(file.text().size()));
+            constexpr std::size_t kPiece = 4096, kPieces = 64;
+            const std::size_t stride = std::max(kPiece, file.text().size() / kPieces);
+            for (std::size_t at = 0; at < file.text().size(); at += stride) hash.add(file.text().substr(at, kPiece));
+            hashes[i] = hash.value();
+        } catch (const Error& error) {
+            failed[i] = error;
+        }
+    });
+    ErrorCollector errors;
+    for (auto& error : failed)
+        if (error) errors.add(*error);
+    errors.throwIfAny();
+
+    Hash hash;
+    for (const auto& file : files) hash.add(readFile(file));
+    for (const auto value : hashes) hash.add(&value, sizeof value);
+    loaded.hash = hash.hex();
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        for (const auto& warning : loaded.meshes[i].warnings)
+            log::warning("{}{}: {}{}", meshes[i].file, warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
+    return loaded;
+}
+
+DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize) {
+    const Scene& scene = loaded.scene;
+    DrawScene draw;
+    draw.info.up = scene.upVector();
+    MaterialTable materials(loaded, frame);
+    std::uint32_t nextObject = 1;
+    const double firstFrame = scene.firstFrame();
+    for (const auto& keyed : scene.instances) {
+        const Instance instance = keyed.at(frame);
+        const std::size_t mesh = meshIndex(scene, instance.mesh);
+        const PolyMesh& poly = loaded.meshes[mesh].poly;
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject};
+        for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
+        nextObject += static_cast<std::uint32_t>(poly.partNames.size());
+        draw.info.bounds.add(instanceBounds(poly, keyed.moves() ? keyed.at(firstFrame).transform() : placed.worldFromMesh));
+        draw.instances.push_back(std::move(placed));
+    }
+    draw.materials = std::move(materials.materials);
+
+    if (!cameraName.empty()) {
+        std::vector<std::string> names;
+        for (const auto& camera : scene.cameras) {
+            names.push_back(camera.base.name);
+            if (camera.base.name == cameraName) draw.camera = camera.at(frame);
+        }
+        if (draw.camera.name.empty()) throw Error(ExitCode::usage, {scene.file}, fmt::format("there is no camera '{}'", cameraName), nameRemedy(cameraName, names));
+    } else if (!scene.cameras.empty()) {
+        draw.camera = scene.cameras.front().at(frame);
+    } else {
+        draw.camera = framingCamera(draw.info, imageSize);
+    }
+    if (draw.camera.position == draw.camera.lookAt) throw Error(ExitCode::usage, {scene.file}, fmt::format("camera '{}' looks at the point where it stands", draw.camera.name), "move look_at away from position");
+    for (const auto& light : scene.lights) draw.lights.push_back(light.at(frame));
+    if (draw.lights.empty()) draw.lights.push_back(defaultSun(draw.camera, draw.info));
+    return draw;
+}
+
+SceneFacts sceneFacts(const DrawScene& scene) {
+    SceneFacts facts{scene.info, scene.lights, false, false};
+    for (const auto& instance : scene.instances)
+        for (const auto material : instance.materials) facts.textured = facts.textured || !scene.materials[material].texture.empty();
+    for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;
+    return facts;
+}
+
+}  // namespace limn

@@ -1,0 +1,32 @@
+// From scene files to what is drawn at a frame.
+#pragma once
+
+#include "frame/gpu_scene.h"
+#include "render/config.h"
+#include "scene/obj.h"
+
+namespace limn {
+
+/// A mesh file, read.
+struct LoadedMesh {
+    PolyMesh poly;
+    std::vector<Material> materials;        ///< of its MTL files
+    std::vector<MeshWarning> warnings;
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<LoadedMesh> meshes;         ///< beside Scene::meshes; empty where no instance draws the mesh
+    std::string hash;                       ///< of every file that went in
+};
+
+/// Reads the scene that a config names and every mesh that is drawn, in parallel. All problems at once (Errors).
+LoadedScene loadScene(const std::filesystem::path& path);
+
+/// The scene at a frame. `cameraName` empty: the first camera, or one that frames the scene. Throws Error when there is no such camera.
+DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize);
+
+/// Number of textured materials that are drawn, and whether a light is coloured: what effects build on.
+SceneFacts sceneFacts(const DrawScene& scene);
+
+}  // namespace limn

@@ -1,0 +1,76 @@
+#include "render/pipeline.h"
+
+#include <fmt/format.h>
+
+namespace limn {
+namespace {
+
+struct AccumulateConstants {
+    bool first = false, last = false;
+    float scale = 1;
+};
+constexpr Field kAccumulate[] = {
+    field<&AccumulateConstants::first>("first", {.doc = "Forget what was summed before."}),
+    field<&AccumulateConstants::last>("last", {.doc = "Turn the sum into the mean."}),
+    field<&AccumulateConstants::scale>("scale", {.doc = "One over the number of samples."}),
+};
+
+void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) {
+    builder.beginTechnique(std::string(choice.technique->slot), std::string(choice.technique->name));
+    choice.technique->build(builder, choice.at(frame).get(), *choice.technique);
+}
+
+/// The mean of an AOV over the samples of each pixel, as an image of output pixels.
+ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view, const SampleSplit& split) {
+    const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
+    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size, true});
+    const int samples = split.raster * split.raster * split.subFrames;
+    Pass pass;
+    pass.name = fmt::format("accumulate_{}", aov.name);
+    pass.shader = "frame/accumulate";
+    pass.reads = {{"source", builder.read(aov)}};
+    pass.writes = {{"sum", sum, SceneData::none, glm::vec4(0), true}};
+    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.subFrame == 0, view.subFrame + 1 == split.subFrames, 1.0f / static_cast<float>(samples)});
+    pass.note = fmt::format("{} samples", samples);
+    builder.beginTechnique("samples", "accumulate");
+    builder.add(std::move(pass));
+    return sum;
+}
+
+}  // namespace
+
+std::vector<const Aov*> chooseAovs(std::span<const Aov* const> aovs, bool averaged) {
+    std::vector<const Aov*> chosen;
+    for (const Aov* aov : aovs)
+        if (aov->isAveraged == averaged) chosen.push_back(aov);
+    return chosen;
+}
+
+FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, const SampleSplit& split, std::span<const Aov* const> aovs, double frame) {
+    FramePlan result;
+    EffectBuilder builder(result.graph, view, facts);
+    build(builder, config.geometry, frame);
+    if (config.ao) build(builder, *config.ao, frame);
+    else result.graph.absent.emplace_back("ao");
+    for (const auto& filter : config.aoFilters) build(builder, filter, frame);
+    if (config.ao && config.aoFilters.empty()) result.graph.absent.emplace_back("filter");
+    build(builder, config.shading, frame);
+    for (std::size_t layer = 0; layer < config.edges.size(); ++layer) {
+        builder.setLayer(static_cast<int>(layer));
+        build(builder, config.edges[layer], frame);
+    }
+    builder.setLayer(0);
+    if (config.edges.empty()) result.graph.absent.emplace_back("edges");
+    build(builder, config.composite, frame);
+
+    const bool sums = split.raster * split.subFrames > 1;
+    for (const Aov* aov : aovs) {
+        const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view, split) : builder.read(*aov);
+        result.wanted.push_back({std::string(aov->name), image});
+        result.aovs.push_back(aov);
+    }
+    result.plan = compile(result.graph, result.wanted);
+    return result;
+}
+
+}  // namespace limn

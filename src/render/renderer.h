@@ -1,0 +1,68 @@
+// Draws configs into pictures: loads, plans, draws every sub-frame, reads back, and writes.
+#pragma once
+
+#include "frame/executor.h"
+#include "render/loader.h"
+#include "render/pipeline.h"
+
+#include <functional>
+
+namespace limn {
+
+struct RenderOptions {
+    PixelRect crop;                 ///< output pixels from the *upper* left; empty: everything
+    bool measure = false;
+};
+
+/// Milliseconds of the parts of a frame, as seen from outside.
+struct PartTime {
+    std::string name;
+    double milliseconds;
+};
+
+struct RenderedFrame {
+    std::vector<Layer> layers;              ///< one per AOV of the config, in its order
+    Metadata metadata;
+    std::vector<PartTime> times;
+    std::uint64_t nonFinite = 0;            ///< values that are NaN or infinite, but for depth's background
+};
+
+/// A plan and the pictures it would make: what `limn plan` shows.
+struct ExplainedPlan {
+    FramePlan frame;                        ///< of the averaged AOVs, or of everything with one sample
+    std::optional<FramePlan> centre;        ///< of the AOVs taken at the pixel's centre, when there are several samples
+    PlanFacts facts;
+};
+
+/// Plans a frame without GL. `maxTextureSize` is the driver's, which may change how samples are split.
+ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize = 16384);
+
+/// The device, the programs and the scenes on it, kept from frame to frame.
+class Renderer {
+public:
+    explicit Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder = {});
+
+    RenderedFrame render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
+
+    /// With RenderOptions::measure: GPU milliseconds of each pass of the last frame's averaged plan.
+    const std::vector<double>& passMilliseconds() const { return passMilliseconds_; }
+    const gl::Device& device() const { return device_; }
+
+private:
+    struct SceneCache;
+
+    gl::Device device_;
+    ShaderLibrary shaders_;
+    Executor executor_;
+    std::vector<double> passMilliseconds_;
+};
+
+/// Writes a frame: the beauty, or everything, at `path`; AOVs that the format cannot hold go beside it as NAME.AOV.EXT (depth and other
+/// data as EXR). Returns the files written, in order.
+std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options);
+
+/// "room_####.exr" at 7 → "room_0007.exr".
+std::filesystem::path framePath(const std::filesystem::path& pattern, int frame);
+bool hasFrameNumber(const std::filesystem::path& pattern);
+
+}  // namespace limn

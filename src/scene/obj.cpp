@@ -1,0 +1,487 @@
+#include "scene/obj.h"
+
+#include "base/file.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace limn {
+namespace {
+
+/// Beyond this the squares and products that shading needs leave float's range.
+constexpr double kLargestCoordinate = 1e20;
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Reads words and numbers from one line.
+struct Cursor {
+    const char* at;
+    const char* end;
+
+    void skipBlanks() { while (at < end && isBlank(*at)) ++at; }
+    bool atEnd() { skipBlanks(); return at == end; }
+    std::string_view word() {
+        skipBlanks();
+        const char* start = at;
+        while (at < end && !isBlank(*at)) ++at;
+        return {start, static_cast<std::size_t>(at - start)};
+    }
+    std::string_view rest() {
+        skipBlanks();
+        const char* last = end;
+        while (last > at && isBlank(last[-1])) --last;
+        return {at, static_cast<std::size_t>(last - at)};
+    }
+    bool number(double& value) {
+        skipBlanks();
+        if (at < end && *at == '+') ++at;
+        const auto [next, status] = std::from_chars(at, end, value);
+        if (status == std::errc::result_out_of_range) {  // 1e999: as unusable as infinity, but well-formed
+            value = std::numeric_limits<double>::infinity();
+        } else if (status != std::errc()) {
+            return false;
+        }
+        at = next;
+        return at == end || isBlank(*at);
+    }
+    bool integer(std::int64_t& value) {
+        const auto [next, status] = std::from_chars(at, end, value);
+        if (status != std::errc()) return false;
+        at = next;
+        return true;
+    }
+};
+
+/// Calls `use(line, lineNumber)` for each logical line: continuations joined, comments and line ends removed.
+template <class Use>
+int forEachLine(std::string_view text, Use&& use) {
+    int line = 0;
+    std::string joined;
+    int joinedFrom = 0;
+    while (!text.empty()) {
+        const auto end = std::min(text.find('\n'), text.size());
+        std::string_view content = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        ++line;
+        if (content.ends_with('\r')) content.remove_suffix(1);
+        const bool continues = content.ends_with('\\');
+        if (continues) content.remove_suffix(1);
+        if (continues || !joined.empty()) {
+            if (joined.empty()) joinedFrom = line;
+            joined.append(content).push_back(' ');
+            if (continues && !text.empty()) continue;
+            use(std::string_view(joined), joinedFrom);
+            joined.clear();
+        } else {
+            use(content, line);
+        }
+    }
+    return line;
+}
+
+struct WarningList {
+    std::map<std::string, MeshWarning, std::less<>> kinds;
+
+    void add(std::string_view kind, int line, std::size_t count = 1) {
+        auto it = kinds.find(kind);
+        if (it == kinds.end()) it = kinds.emplace(kind, MeshWarning{std::string(kind), 0, line}).first;
+        it->second.count += count;
+        it->second.firstLine = std::min(it->second.firstLine, line);
+    }
+    std::vector<MeshWarning> list() const {
+        std::vector<MeshWarning> result;
+        for (const auto& [kind, warning] : kinds) result.push_back(warning);
+        std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.firstLine < b.firstLine; });
+        return result;
+    }
+};
+
+/// A change of material, part or smoothing, before face `face` of the chunk.
+struct StateChange {
+    enum class Kind { material, part, smoothing };
+    Kind kind;
+    std::size_t face;
+    std::string name;
+    std::uint32_t group;
+};
+
+/// What one piece of the file holds; indices that count from its end are not yet resolved.
+struct Chunk {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec2> uvs;
+    std::vector<glm::vec3> normals;
+    struct Corner { std::int64_t position; std::int32_t uv, normal; };
+    std::vector<Corner> corners;                 ///< absolute indices from 0, or relative to the chunk's first element where listed below
+    std::vector<std::uint32_t> faceEnd;
+    std::vector<int> faceLine;
+    std::vector<std::uint32_t> relativePosition, relativeUv, relativeNormal;  ///< corners whose index is relative to this chunk
+    std::vector<StateChange> changes;
+    std::vector<std::string> libraries;
+    WarningList warnings;
+    int lines = 0;
+};
+
+constexpr std::int32_t kBadIndex = std::numeric_limits<std::int32_t>::min();
+
+/// One corner "v", "v/t", "v//n" or "v/t/n".
+bool readCorner(Cursor& cursor, Chunk& chunk) {
+    cursor.skipBlanks();
+    const auto index = static_cast<std::uint32_t>(chunk.corners.size());
+    const auto resolve = [&](std::int64_t raw, std::size_t count, std::vector<std::uint32_t>& relative) -> std::int64_t {
+        if (raw > 0) return raw - 1;
+        relative.push_back(index);
+        return static_cast<std::int64_t>(count) + raw;
+    };
+    const auto narrow = [](std::int64_t value) { return std::abs(value) < std::numeric_limits<std::int32_t>::max() ? static_cast<std::int32_t>(value) : kBadIndex; };
+    std::int64_t raw = 0;
+    if (!cursor.integer(raw) || raw == 0) return false;
+    Chunk::Corner corner{resolve(raw, chunk.positions.size(), chunk.relativePosition), PolyMesh::kNone, PolyMesh::kNone};
+    if (cursor.at < cursor.end && *cursor.at == '/') {
+        ++cursor.at;
+        if (cursor.integer(raw)) corner.uv = raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.uvs.size(), chunk.relativeUv));
+        if (cursor.at < cursor.end && *cursor.at == '/') {
+            ++cursor.at;
+            if (cursor.integer(raw)) corner.normal = raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.normals.size(), chunk.relativeNormal));
+        }
+    }
+    if (cursor.at < cursor.end && !isBlank(*cursor.at)) return false;
+    chunk.corners.push_back(corner);
+    return true;
+}
+
+void readFace(Cursor cursor, Chunk& chunk, int line) {
+    const std::size_t first = chunk.corners.size();
+    const std::size_t relative[] = {chunk.relativePosition.size(), chunk.relativeUv.size(), chunk.relativeNormal.size()};
+    while (!cursor.atEnd()) {
+        if (!readCorner(cursor, chunk)) {
+            chunk.corners.resize(first);
+            chunk.relativePosition.resize(relative[0]), chunk.relativeUv.resize(relative[1]), chunk.relativeNormal.resize(relative[2]);
+            chunk.warnings.add("face with a corner that is no index; dropped", line);
+            return;
+        }
+    }
+    chunk.faceEnd.push_back(static_cast<std::uint32_t>(chunk.corners.size()));
+    chunk.faceLine.push_back(line);
+}
+
+void readLine(std::string_view text, int line, Chunk& chunk) {
+    Cursor cursor{text.data(), text.data() + text.size()};
+    cursor.skipBlanks();
+    if (cursor.at == cursor.end || *cursor.at == '#') return;
+    const std::string_view keyword = cursor.word();
+
+    const auto numbers = [&](double* out, int required, int optional) {
+        for (int i = 0; i < required + optional; ++i) {
+            out[i] = 0;
+            if (i >= required && cursor.atEnd()) break;
+            if (!cursor.number(out[i])) {
+                chunk.warnings.add(fmt::format("'{}' line with something that is no number", keyword), line);
+                // The element must still exist, or every later index would point one place off; unusable values drop its faces below.
+                for (int j = i; j < required; ++j) out[j] = std::numeric_limits<double>::quiet_NaN();
+                break;
+            }
+        }
+    };
+    double n[4];
+    const auto change = [&](StateChange::Kind kind, std::string name, std::uint32_t group) { chunk.changes.push_back({kind, chunk.faceEnd.size(), std::move(name), group}); };
+    if (keyword == "v") {
+        numbers(n, 3, 0);  // a weight or a colour may follow
+        chunk.positions.emplace_back(n[0], n[1], n[2]);
+    } else if (keyword == "vn") {
+        numbers(n, 3, 0);
+        chunk.normals.emplace_back(n[0], n[1], n[2]);
+    } else if (keyword == "vt") {
+        numbers(n, 1, 2);
+        chunk.uvs.emplace_back(n[0], n[1]);
+    } else if (keyword == "f" || keyword == "fo") {
+        readFace(cursor, chunk, line);
+    } else if (keyword == "usemtl") {
+        change(StateChange::Kind::material, std::string(cursor.rest()), 0);
+    } else if (keyword == "o" || keyword == "g") {
+        change(StateChange::Kind::part, std::string(cursor.rest()), 0);
+    } else if (keyword == "s") {
+        const auto group = cursor.rest();
+        std::uint32_t value = 0;
+        if (group != "off") std::from_chars(group.data(), group.data() + group.size(), value);
+        change(StateChange::Kind::smoothing, {}, value);
+    } else if (keyword == "mtllib") {
+        chunk.libraries.emplace_back(cursor.rest());
+    } else if (keyword == "l" || keyword == "p") {
+        chunk.warnings.add("line or point element; not drawn", line);
+    } else if (keyword == "t" || keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod" || keyword == "shadow_obj" || keyword == "trace_obj") {
+        // Known statements that say nothing about a polygon picture.
+    } else {
+        chunk.warnings.add("statement that OBJ does not know; skipped", line);
+    }
+}
+
+/// Cuts the text into about `count` pieces at line ends that do not continue.
+std::vector<std::string_view> split(std::string_view text, std::size_t count) {
+    std::vector<std::string_view> pieces;
+    const std::size_t target = std::max<std::size_t>(text.size() / std::max<std::size_t>(count, 1), 1);
+    while (!text.empty()) {
+        std::size_t end = text.size() <= target + target / 2 ? text.size() : target;
+        while (end < text.size()) {
+            end = text.find('\n', end);
+            if (end == std::string_view::npos) { end = text.size(); break; }
+            const char before = text[end - 1] == '\r' && end >= 2 ? text[end - 2] : text[end - 1];
+            ++end;
+            if (before != '\\') break;
+        }
+        pieces.push_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+    return pieces;
+}
+
+/// Turns a name into a small number, the same for the same name.
+struct NameTable {
+    std::vector<std::string>& names;
+    std::unordered_map<std::string, std::uint32_t> known{};
+
+    std::uint32_t index(const std::string& name) {
+        const auto [it, isNew] = known.emplace(name, static_cast<std::uint32_t>(names.size()));
+        if (isNew) names.push_back(name);
+        return it->second;
+    }
+};
+
+template <class T, class U>
+void append(std::vector<T>& to, std::vector<U>& from) {
+    if (to.empty() && std::is_same_v<T, U>) to = std::move(from);
+    else to.insert(to.end(), from.begin(), from.end());
+    from = {};
+}
+
+class Merger {
+public:
+    explicit Merger(PolyMesh& mesh) : mesh_(mesh) {}
+
+    void merge(std::vector<Chunk>& chunks, WarningList& warnings) {
+        std::size_t corners = 0, faceCount = 0;
+        for (const auto& chunk : chunks) corners += chunk.corners.size(), faceCount += chunk.faceEnd.size();
+        std::int64_t positions = 0;
+        std::int32_t uvs = 0, normals = 0;
+        for (auto& chunk : chunks) {
+            for (const auto corner : chunk.relativePosition) chunk.corners[corner].position += positions;
+            for (const auto corner : chunk.relativeUv) if (chunk.corners[corner].uv != kBadIndex) chunk.corners[corner].uv += uvs;
+            for (const auto corner : chunk.relativeNormal) if (chunk.corners[corner].normal != kBadIndex) chunk.corners[corner].normal += normals;
+            positions += static_cast<std::int64_t>(chunk.positions.size());
+            uvs += static_cast<std::int32_t>(chunk.uvs.size());
+            normals += static_cast<std::int32_t>(chunk.normals.size());
+            append(mesh_.positions, chunk.positions);
+            append(mesh_.uvs, chunk.uvs);
+            append(mesh_.normals, chunk.normals);
+            append(mesh_.materialLibraries, chunk.libraries);
+        }
+        usable_.resize(mesh_.positions.size());
+        tbb::parallel_for(std::size_t{0}, mesh_.positions.size(), [&](std::size_t i) {
+            const auto& p = mesh_.positions[i];
+            usable_[i] = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
+        });
+        mesh_.faceStart.reserve(faceCount + 1);
+        mesh_.cornerPosition.reserve(corners);
+        mesh_.cornerUv.reserve(mesh_.uvs.empty() ? 0 : corners);
+        mesh_.cornerNormal.reserve(mesh_.normals.empty() ? 0 : corners);
+        mesh_.faceMaterial.reserve(faceCount), mesh_.facePart.reserve(faceCount), mesh_.faceSmoothing.reserve(faceCount);
+        int lineBase = 0;
+        for (auto& chunk : chunks) {
+            addFaces(chunk, lineBase, warnings);
+            for (const auto& [kind, warning] : chunk.warnings.kinds) warnings.add(kind, lineBase + warning.firstLine, warning.count);
+            lineBase += chunk.lines;
+            chunk = {};
+        }
+    }
+
+    std::size_t outOfRange = 0, faces = 0;
+    int firstOutOfRange = 0;
+
+private:
+    void addFaces(const Chunk& chunk, int lineBase, WarningList& warnings) {
+        std::size_t change = 0, start = 0;
+        for (std::size_t face = 0; face < chunk.faceEnd.size(); ++face) {
+            for (; change < chunk.changes.size() && chunk.changes[change].face <= face; ++change) applyChange(chunk.changes[change]);
+            addFace({chunk.corners.data() + start, chunk.faceEnd[face] - start}, lineBase + chunk.faceLine[face], warnings);
+            start = chunk.faceEnd[face];
+        }
+        for (; change < chunk.changes.size(); ++change) applyChange(chunk.changes[change]);
+    }
+
+    void applyChange(const StateChange& change) {
+        switch (change.kind) {
+            case StateChange::Kind::material: material_ = materials_.index(change.name); break;
+            case StateChange::Kind::part: part_ = parts_.index(change.name); break;
+            case StateChange::Kind::smoothing: smoothing_ = change.group, mesh_.hasSmoothing = true; break;
+        }
+    }
+
+    void addFace(std::span<const Chunk::Corner> corners, int line, WarningList& warnings) {
+        ++faces;
+        const auto count = static_cast<std::int64_t>(mesh_.positions.size());
+        for (const auto& corner : corners) {
+            if (corner.position < 0 || corner.position >= count) {
+                if (outOfRange++ == 0) firstOutOfRange = line;
+                return warnings.add("face refers to a vertex that does not exist; dropped", line);
+            }
+            if (!usable_[static_cast<std::size_t>(corner.position)]) return warnings.add("face with a vertex that is no finite place; dropped", line);
+        }
+        const std::size_t first = mesh_.cornerPosition.size();
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto& corner = corners[i];
+            if (corner.position == corners[i == 0 ? corners.size() - 1 : i - 1].position && corners.size() > 1) {
+                warnings.add("face repeats a vertex; repetition dropped", line);
+                continue;
+            }
+            mesh_.cornerPosition.push_back(static_cast<std::uint32_t>(corner.position));
+            if (!mesh_.uvs.empty()) mesh_.cornerUv.push_back(checked(corner.uv, mesh_.uvs.size(), "texture coordinate", line, warnings));
+            if (!mesh_.normals.empty()) mesh_.cornerNormal.push_back(checked(corner.normal, mesh_.normals.size(), "normal", line, warnings));
+        }
+        if (mesh_.cornerPosition.size() - first < 3) {
+            mesh_.cornerPosition.resize(first);
+            if (!mesh_.uvs.empty()) mesh_.cornerUv.resize(first);
+            if (!mesh_.normals.empty()) mesh_.cornerNormal.resize(first);
+            return warnings.add("face with fewer than three corners; dropped", line);
+        }
+        mesh_.faceStart.push_back(static_cast<std::uint32_t>(mesh_.cornerPosition.size()));
+        if (material_ == kUnset) material_ = materials_.index("");
+        if (part_ == kUnset) part_ = parts_.index("");
+        mesh_.faceMaterial.push_back(material_);
+        mesh_.facePart.push_back(part_);
+        mesh_.faceSmoothing.push_back(smoothing_);
+    }
+
+    static std::int32_t checked(std::int32_t index, std::size_t count, const char* what, int line, WarningList& warnings) {
+        if (index == PolyMesh::kNone) return index;
+        if (index >= 0 && static_cast<std::size_t>(index) < count) return index;
+        warnings.add(fmt::format("face refers to a {} that does not exist; done without", what), line);
+        return PolyMesh::kNone;
+    }
+
+    static constexpr std::uint32_t kUnset = ~0u;
+    PolyMesh& mesh_;
+    NameTable materials_{mesh_.materialNames}, parts_{mesh_.partNames};
+    std::uint32_t material_ = kUnset, part_ = kUnset, smoothing_ = 0;
+    std::vector<char> usable_;
+};
+
+Color readColor(Cursor& cursor) {
+    double rgb[3] = {0, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0 && cursor.atEnd()) { rgb[i] = rgb[0]; continue; }  // one number means grey
+        if (!cursor.number(rgb[i]) || !std::isfinite(rgb[i])) rgb[i] = 0;
+    }
+    const auto channel = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 65504.0)); };
+    return {channel(rgb[0]), channel(rgb[1]), channel(rgb[2])};
+}
+
+/// The file name of a map statement, after its options: "-s 1 1 1 -bm 0.5 wood grain.png".
+std::string_view mapFile(Cursor cursor) {
+    while (!cursor.atEnd() && *cursor.at == '-') {
+        const Cursor before = cursor;
+        const auto option = cursor.word();
+        int arguments = option == "-o" || option == "-s" || option == "-t" ? 3 : option == "-mm" ? 2 : 1;
+        if (option.size() < 2 || !std::isalpha(static_cast<unsigned char>(option[1]))) { cursor = before; break; }
+        const bool numeric = arguments == 3;
+        while (arguments-- > 0) {
+            const Cursor argument = cursor;
+            double value;
+            if (numeric && !cursor.number(value)) { cursor = argument; break; }  // -s may have one to three numbers
+            if (!numeric) cursor.word();
+        }
+    }
+    return cursor.rest();
+}
+
+}  // namespace
+
+ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    // Pieces of a megabyte keep every core busy without costing small files anything.
+    const auto pieces = split(text, chunkCount > 0 ? static_cast<std::size_t>(chunkCount) : std::clamp<std::size_t>(text.size() >> 20, 1, 256));
+    std::vector<Chunk> chunks(pieces.size());
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+        chunks[i].lines = forEachLine(pieces[i], [&](std::string_view line, int number) { readLine(line, number, chunks[i]); });
+    });
+
+    ObjFile file;
+    WarningList warnings;
+    Merger merger(file.mesh);
+    merger.merge(chunks, warnings);
+    if (merger.outOfRange * 2 > merger.faces)
+        throw Error(ExitCode::badData, {name, merger.firstOutOfRange}, fmt::format("{} of {} faces refer to vertices that do not exist", merger.outOfRange, merger.faces),
+                    "the file is damaged or cut off: export it again");
+    if (file.mesh.faceCount() == 0) throw Error(ExitCode::badData, {name}, merger.faces ? "no face is usable" : "there are no faces", "limn draws polygons: export the model with faces");
+    file.warnings = warnings.list();
+    return file;
+}
+
+ObjFile readObj(const std::filesystem::path& path) { return parseObj(MappedFile(path).text(), path.string()); }
+
+std::vector<Material> parseMtl(std::string_view text, const std::filesystem::path& folder, std::vector<MeshWarning>& warnings) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::vector<Material> materials;
+    WarningList found;
+    double exponent = 0;
+    Color specular;
+    const auto finish = [&] {
+        if (materials.empty()) return;
+        materials.back().specular = std::min(1.0f, std::max({specular.r, specular.g, specular.b}));
+        materials.back().shininess = materials.back().specular > 0 ? static_cast<float>(std::clamp(exponent, 0.0, 10000.0)) : 0.0f;
+    };
+    forEachLine(text, [&](std::string_view line, int number) {
+        Cursor cursor{line.data(), line.data() + line.size()};
+        const auto keyword = cursor.word();
+        if (keyword == "newmtl") {
+            finish();
+            materials.push_back({.name = std::string(cursor.rest())});
+            exponent = 0, specular = {};
+        } else if (materials.empty()) {
+            if (!keyword.empty() && keyword[0] != '#') found.add("material property before the first newmtl; skipped", number);
+        } else if (keyword == "Kd") {
+            materials.back().color = readColor(cursor);
+        } else if (keyword == "Ks") {
+            specular = readColor(cursor);
+        } else if (keyword == "Ns") {
+            if (!cursor.number(exponent) || !std::isfinite(exponent)) exponent = 0;
+        } else if (keyword == "map_Kd") {
+            std::string file(mapFile(cursor));
+            std::replace(file.begin(), file.end(), '\\', '/');
+            if (file.empty()) return;
+            const auto path = folder / file;
+            if (std::filesystem::exists(path)) materials.back().texture = path.string();
+            else found.add(fmt::format("texture '{}' is missing; drawn without", path.string()), number);
+        }
+    });
+    finish();
+    for (auto& warning : found.list()) warnings.push_back(std::move(warning));
+    return materials;
+}
+
+std::vector<Material> readMaterials(const std::filesystem::path& objPath, const PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
+    std::vector<Material> materials;
+    const auto readLibrary = [&](const std::filesystem::path& path) {
+        try {
+            for (auto& material : parseMtl(readFile(path), path.parent_path(), warnings)) materials.push_back(std::move(material));
+        } catch (const Error& error) {
+            warnings.push_back({fmt::format("material library '{}' {}; drawn without", path.string(), error.problem), 1, 0});
+        }
+    };
+    for (const auto& line : mesh.materialLibraries) {
+        const auto whole = objPath.parent_path() / line;
+        if (std::filesystem::exists(whole)) {  // the name itself may hold spaces
+            readLibrary(whole);
+            continue;
+        }
+        Cursor cursor{line.data(), line.data() + line.size()};
+        while (!cursor.atEnd()) readLibrary(objPath.parent_path() / cursor.word());
+    }
+    return materials;
+}
+
+}  // namespace limn

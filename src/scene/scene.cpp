@@ -1,0 +1,269 @@
+#include "scene/scene.h"
+
+#include "base/text.h"
+#include "config/document.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <set>
+
+namespace limn {
+namespace {
+
+struct SceneHeader {
+    Axis up = Axis::y;
+};
+constexpr Field kHeader[] = {
+    field<&SceneHeader::up>("up", {.doc = "The axis that points up: \"y\" or \"z\"."}),
+};
+
+struct Units {
+    double metersPerUnit = 1;
+};
+constexpr Field kUnits[] = {
+    field<&Units::metersPerUnit>("meters_per_unit", {.unit = "metres", .min = 1e-12, .max = 1e12, .doc = "Size of one scene unit."}),
+};
+
+constexpr Field kMesh[] = {
+    field<&MeshSource::name>("name", {.required = true, .doc = "Name by which instances call the mesh."}),
+    field<&MeshSource::file>("file", {.required = true, .doc = "OBJ file, relative to the scene file."}),
+};
+
+constexpr Field kInstance[] = {
+    field<&Instance::name>("name", {.doc = "Name of the object; the mesh's name if left out."}),
+    field<&Instance::mesh>("mesh", {.required = true, .doc = "Name of the mesh to draw."}),
+    field<&Instance::material>("material", {.doc = "Material that replaces those of the mesh."}),
+    field<&Instance::translate>("translate", {.unit = "scene units", .doc = "Where the mesh's origin goes."}),
+    field<&Instance::rotate>("rotate", {.unit = "degrees", .doc = "Turn about x, then y, then z."}),
+    field<&Instance::scale>("scale", {.doc = "Stretch along the mesh's axes; negative mirrors."}),
+    field<&Instance::matrix>("matrix", {.doc = "4×4 matrix in row order, instead of translate, rotate and scale."}),
+};
+
+constexpr Field kCamera[] = {
+    field<&Camera::name>("name", {.doc = "Name by which configs call the camera."}),
+    field<&Camera::position>("position", {.unit = "scene units", .required = true, .doc = "Where the camera stands."}),
+    field<&Camera::lookAt>("look_at", {.unit = "scene units", .required = true, .doc = "The point in the middle of the picture (without shift)."}),
+    field<&Camera::up>("up", {.doc = "Direction that points up in the picture; the scene's up axis if left out."}),
+    field<&Camera::focalLength>("focal_length", {.unit = "mm", .min = 0.01, .max = 1e5, .doc = "Focal length; 35 if neither it nor fov is given."}),
+    field<&Camera::sensorWidth>("sensor_width", {.unit = "mm", .min = 0.01, .max = 1e4, .doc = "Width of the sensor behind the lens."}),
+    field<&Camera::fov>("fov", {.unit = "degrees", .min = 0.001, .max = 179, .doc = "Horizontal field of view, instead of focal_length."}),
+    field<&Camera::orthographicHeight>("orthographic_height", {.unit = "scene units", .min = 1e-12, .doc = "Height of the picture in the scene: makes the camera orthographic."}),
+    field<&Camera::shift>("shift", {.min = -10, .max = 10, .doc = "Lens shift right and up, in fractions of the longer image side; keeps verticals vertical."}),
+    field<&Camera::near>("near", {.unit = "scene units", .min = 0, .doc = "Nearest distance drawn; chosen from the scene if left out."}),
+    field<&Camera::far>("far", {.unit = "scene units", .min = 0, .doc = "Far distance that paper modes refer to; the scene's far end if left out."}),
+};
+
+constexpr Field kLight[] = {
+    field<&Light::name>("name", {.doc = "Name of the light."}),
+    field<&Light::kind>("kind", {.doc = "sun (parallel), point or spot."}),
+    field<&Light::direction>("direction", {.doc = "Direction in which the light travels (sun, spot)."}),
+    field<&Light::position>("position", {.unit = "scene units", .doc = "Where the light stands (point, spot)."}),
+    field<&Light::color>("color", {.doc = "Colour of the light."}),
+    field<&Light::intensity>("intensity", {.min = 0, .max = 1e6, .doc = "Strength."}),
+    field<&Light::range>("range", {.unit = "scene units", .min = 0, .doc = "Distance at which a point or spot light has fallen to half; 0 = it does not fall."}),
+    field<&Light::angle>("angle", {.unit = "degrees", .min = 0.1, .max = 179, .doc = "Full opening angle of a spot."}),
+    field<&Light::blend>("blend", {.min = 0, .max = 1, .doc = "Part of a spot's cone over which it fades out."}),
+};
+
+constexpr Field kShadow[] = {
+    field<&ShadowSettings::resolution>("resolution", {.unit = "texels", .min = 16, .max = 16384, .accuracy = true, .doc = "Side of the shadow map."}),
+    field<&ShadowSettings::softness>("softness", {.unit = "texels", .min = 0, .max = 16, .doc = "Width of the shadow's edge."}),
+};
+
+constexpr Field kMaterial[] = {
+    field<&Material::name>("name", {.required = true, .doc = "Name; a material of the same name in an MTL file is replaced."}),
+    field<&Material::color>("color", {.doc = "Colour of the object."}),
+    field<&Material::texture>("texture", {.doc = "Image multiplied onto the colour, relative to the scene file."}),
+    field<&Material::shininess>("shininess", {.min = 0, .max = 10000, .doc = "Exponent of the highlight; none at 1 or below."}),
+    field<&Material::specular>("specular", {.min = 0, .max = 10, .doc = "Strength of the highlight."}),
+};
+
+struct Animation {
+    std::string frames;
+    double fps = 24;
+};
+constexpr Field kAnimation[] = {
+    field<&Animation::frames>("frames", {.required = true, .doc = "Range of frames, such as \"1-240\"."}),
+    field<&Animation::fps>("fps", {.unit = "frames per second", .min = 0.001, .max = 1e6, .doc = "Playing speed."}),
+};
+
+std::optional<FrameRange> parseRange(std::string_view text) {
+    const auto dash = text.find('-', 1);  // from 1: the first number may be negative
+    const auto first = parseNumber(text.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : parseNumber(text.substr(dash + 1));
+    const auto isFrame = [](double f) { return std::abs(f) < 1e9 && f == static_cast<int>(f); };
+    if (!first || !last || !isFrame(*first) || !isFrame(*last) || *last < *first) return std::nullopt;
+    return FrameRange{static_cast<int>(*first), static_cast<int>(*last)};
+}
+
+class SceneReader {
+public:
+    SceneReader(const Node& document, const std::filesystem::path& path) : document_(document), folder_(path.parent_path()) { scene_.file = path.string(); }
+
+    Scene read() {
+        static constexpr std::string_view sections[] = {"units", "mesh", "instance", "camera", "light", "material", "animation"};
+        SceneHeader header;
+        readFields(document_, kHeader, &header, nullptr, "the scene", errors_, sections);
+        scene_.up = header.up;
+        if (const Node* node = document_.find("units")) {
+            Units units;
+            readFields(*node, kUnits, &units, nullptr, "[units]", errors_);
+            scene_.metersPerUnit = units.metersPerUnit;
+        }
+        readAnimation();
+        forEach("mesh", [&](const Node& node) { readMesh(node); });
+        forEach("material", [&](const Node& node) { readMaterial(node); });
+        forEach("instance", [&](const Node& node) { readInstance(node); });
+        forEach("camera", [&](const Node& node) { readCamera(node); });
+        forEach("light", [&](const Node& node) { readLight(node); });
+        if (scene_.meshes.empty() && errors_.empty()) fail(document_, "the scene has no [[mesh]]", "add one:  [[mesh]]  name = \"chair\"  file = \"chair.obj\"");
+        errors_.throwIfAny();
+        if (scene_.instances.empty())
+            for (const auto& mesh : scene_.meshes) scene_.instances.push_back({{.name = mesh.name, .mesh = mesh.name}, {}});
+        return std::move(scene_);
+    }
+
+private:
+    void fail(const Node& node, std::string problem, std::string remedy, ExitCode code = ExitCode::usage) { errors_.add({code, node.where, std::move(problem), std::move(remedy)}); }
+
+    template <class Read>
+    void forEach(std::string_view section, Read read) {
+        const Node* list = document_.find(section);
+        if (!list) return;
+        if (!list->isArray()) return fail(*list, fmt::format("'{}' must be a list of tables", section), fmt::format("write [[{}]] with two brackets", section));
+        for (const auto& node : list->array()) read(node);
+    }
+
+    template <class T>
+    Keyed<T> readTable(const Node& node, Schema schema, std::string_view what, std::span<const std::string_view> alsoKnown = {}) {
+        Keyed<T> keyed;
+        readFields(node, schema, &keyed.base, &keyed.tracks, what, errors_, alsoKnown);
+        return keyed;
+    }
+
+    std::string resolveFile(const Node& node, std::string_view key, const std::string& file) {
+        if (file.empty()) return file;
+        const auto path = folder_ / file;
+        if (!std::filesystem::exists(path))
+            fail(node.find(key) ? *node.find(key) : node, fmt::format("'{}' does not exist", path.string()), "paths are relative to the scene file", ExitCode::missingInput);
+        return path.string();
+    }
+
+    void readAnimation() {
+        const Node* node = document_.find("animation");
+        if (!node) return;
+        Animation animation;
+        readFields(*node, kAnimation, &animation, nullptr, "[animation]", errors_);
+        scene_.fps = animation.fps;
+        scene_.frames = parseRange(animation.frames);
+        if (!animation.frames.empty() && !scene_.frames) fail(*node->find("frames"), fmt::format("frames '{}' is no range", animation.frames), "write for example frames = \"1-240\"");
+    }
+
+    void readMesh(const Node& node) {
+        auto mesh = readTable<MeshSource>(node, kMesh, "[[mesh]]").base;
+        mesh.where = node.where;
+        mesh.file = resolveFile(node, "file", mesh.file);
+        if (!meshNames_.insert(mesh.name).second) fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
+        scene_.meshes.push_back(std::move(mesh));
+    }
+
+    void readMaterial(const Node& node) {
+        auto material = readTable<Material>(node, kMaterial, "[[material]]");
+        material.base.texture = resolveFile(node, "texture", material.base.texture);
+        if (!materialNames_.insert(material.base.name).second) fail(node, fmt::format("there are two materials named '{}'", material.base.name), "give each its own name");
+        scene_.materials.push_back(std::move(material));
+    }
+
+    void requireName(const Node& node, std::string_view key, const std::string& name, const std::set<std::string>& names) {
+        if (name.empty() || names.contains(name)) return;
+        const std::vector<std::string> candidates(names.begin(), names.end());
+        fail(node.find(key) ? *node.find(key) : node, fmt::format("there is no {} named '{}'", key, name),
+             candidates.empty() ? fmt::format("add a [[{}]] with that name", key) : nameRemedy(name, candidates));
+    }
+
+    void readInstance(const Node& node) {
+        auto instance = readTable<Instance>(node, kInstance, "[[instance]]");
+        requireName(node, "mesh", instance.base.mesh, meshNames_);
+        requireName(node, "material", instance.base.material, materialNames_);
+        if (const Node* matrix = node.find("matrix")) {
+            const auto& m = instance.base.matrix;
+            if (m.size() != 16) fail(*matrix, fmt::format("'matrix' has {} numbers", m.size()), "give 16, in row order");
+            else if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) fail(*matrix, "the last row of 'matrix' is not 0 0 0 1", "rows come one after the other; translation stands at the end of the first three");
+            for (const auto other : {"translate", "rotate", "scale"})
+                if (node.find(other)) fail(*node.find(other), fmt::format("'{}' stands beside 'matrix'", other), "use one or the other");
+        }
+        if (instance.base.name.empty()) instance.base.name = instance.base.mesh;
+        scene_.instances.push_back(std::move(instance));
+    }
+
+    void readCamera(const Node& node) {
+        auto camera = readTable<Camera>(node, kCamera, "[[camera]]");
+        if (camera.base.name.empty()) camera.base.name = fmt::format("camera{}", scene_.cameras.size() + 1);
+        int lenses = 0;
+        for (const auto key : {"focal_length", "fov", "orthographic_height"}) lenses += node.find(key) != nullptr;
+        if (lenses > 1) fail(node, "a camera can have only one of focal_length, fov and orthographic_height", "remove the others");
+        if (node.find("position") && node.find("look_at") && !camera.moves() && camera.base.position == camera.base.lookAt) fail(*node.find("look_at"), "the camera looks at the point where it stands", "move look_at away from position");
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    void readLight(const Node& node) {
+        static constexpr std::string_view alsoKnown[] = {"shadow"};
+        auto light = readTable<Light>(node, kLight, "[[light]]", alsoKnown);
+        if (const Node* shadow = node.find("shadow")) {
+            light.base.shadow.present = true;
+            readFields(*shadow, kShadow, &light.base.shadow, nullptr, "shadow", errors_);
+        }
+        if (light.base.kind != LightKind::point && glm::length(light.base.direction) == 0) fail(node, "the light's direction has no length", "give a direction such as [-1, -2, -1]");
+        scene_.lights.push_back(std::move(light));
+    }
+
+    const Node& document_;
+    std::filesystem::path folder_;
+    Scene scene_;
+    ErrorCollector errors_;
+    std::set<std::string> meshNames_, materialNames_;
+};
+
+}  // namespace
+
+glm::dmat4 Instance::transform() const {
+    if (matrix.size() == 16) {
+        glm::dmat4 result(1);
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 4; ++column) result[column][row] = matrix[static_cast<std::size_t>(row * 4 + column)];
+        return result;
+    }
+    glm::dmat4 result = glm::translate(glm::dmat4(1), translate);
+    result = glm::rotate(result, glm::radians(rotate.z), {0, 0, 1});
+    result = glm::rotate(result, glm::radians(rotate.y), {0, 1, 0});
+    result = glm::rotate(result, glm::radians(rotate.x), {1, 0, 0});
+    return glm::scale(result, scale);
+}
+
+std::vector<SceneSection> sceneSections() {
+    return {{"", "top of the file", kHeader},
+            {"[units]", "what the numbers mean", kUnits},
+            {"[[mesh]]", "a mesh file", kMesh},
+            {"[[instance]]", "a mesh placed in the scene; without any, each mesh is drawn once where it was modelled", kInstance},
+            {"[[camera]]", "a camera; without any, one that frames the scene", kCamera},
+            {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight},
+            {"[[light]] shadow", "shadow map of a light; without it the light casts none and costs none", kShadow},
+            {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial},
+            {"[animation]", "declared frames; without them the scene is a still", kAnimation}};
+}
+
+Scene parseScene(const Node& document, const std::filesystem::path& path) { return SceneReader(document, path).read(); }
+
+Scene readScene(const std::filesystem::path& path, std::vector<std::filesystem::path>* files) { return parseScene(readDocument(path, files), path); }
+
+Scene sceneFromObj(const std::filesystem::path& objPath) {
+    Scene scene;
+    scene.file = objPath.string();
+    const std::string name = objPath.stem().string();
+    scene.meshes.push_back({name, objPath.string(), {}});
+    scene.instances.push_back({{.name = name, .mesh = name}, {}});
+    return scene;
+}
+
+}  // namespace limn

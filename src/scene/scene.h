@@ -1,0 +1,120 @@
+// A scene: plain data, as described by a scene file. Doubles, scene units, right-handed.
+#pragma once
+
+#include "base/params.h"
+
+#include <glm/glm.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limn {
+
+enum class Axis { y, z };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<Axis> = {"y", "z"};
+
+enum class LightKind { sun, point, spot };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<LightKind> = {"sun", "point", "spot"};
+
+/// Warm paper grey: what an object without a material is drawn in.
+inline constexpr Color kPaperGrey{0.604f, 0.571f, 0.521f};  // #cbc6be
+
+struct Material {
+    std::string name;
+    Color color = kPaperGrey;
+    std::string texture;        ///< image file multiplied onto the colour; empty = none
+    float shininess = 0;        ///< Blinn–Phong exponent; no highlight at 1 or below
+    float specular = 1;         ///< strength of the highlight
+};
+
+struct MeshSource {
+    std::string name;
+    std::string file;           ///< absolute, or relative to the working directory
+    Location where;
+};
+
+struct Instance {
+    std::string name;
+    std::string mesh;
+    std::string material;       ///< replaces every material of the mesh; empty = the file's own
+    glm::dvec3 translate{0};
+    glm::dvec3 rotate{0};       ///< degrees, about x, then y, then z
+    glm::dvec3 scale{1};
+    std::vector<double> matrix; ///< 16 numbers in row order, instead of the three
+
+    glm::dmat4 transform() const;
+};
+
+struct Camera {
+    std::string name;
+    glm::dvec3 position{0, 0, 5};
+    glm::dvec3 lookAt{0, 0, 0};
+    glm::dvec3 up{0};               ///< zero: the scene's up axis
+    double focalLength = 0;         ///< mm; 0 = by fov
+    double sensorWidth = 36;        ///< mm
+    double fov = 0;                 ///< degrees, horizontal; 0 = by focal length (35 mm when neither is given)
+    double orthographicHeight = 0;  ///< scene units; above 0 the camera is orthographic
+    glm::dvec2 shift{0};            ///< fraction of the larger image side, as in Blender
+    double near = 0;                ///< scene units; 0 = chosen from the scene
+    double far = 0;                 ///< scene units; 0 = the scene's far end; only paper modes depend on it
+};
+
+struct ShadowSettings {
+    bool present = false;
+    int resolution = 2048;
+    float softness = 1;             ///< texels
+};
+
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::sun;
+    glm::dvec3 direction{-1, -2, -1};   ///< travel direction; sun and spot
+    glm::dvec3 position{0, 3, 0};       ///< point and spot
+    Color color{1, 1, 1};
+    double intensity = 1;
+    double range = 0;                   ///< scene units at which a point or spot light has fallen to half; 0 = no falloff
+    double angle = 45;                  ///< degrees, full cone of a spot
+    double blend = 0.15;                ///< part of the cone over which a spot fades out
+    ShadowSettings shadow;
+};
+
+struct FrameRange {
+    int first = 1, last = 1;
+};
+
+struct Scene {
+    std::string file;
+    Axis up = Axis::y;
+    double metersPerUnit = 1;
+    std::vector<MeshSource> meshes;
+    std::vector<Keyed<Instance>> instances;
+    std::vector<Keyed<Camera>> cameras;
+    std::vector<Keyed<Light>> lights;
+    std::vector<Keyed<Material>> materials;
+    std::optional<FrameRange> frames;     ///< declared frames; none for a still
+    double fps = 24;
+
+    glm::dvec3 upVector() const { return up == Axis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1); }
+    /// The frame at which relative lengths are resolved.
+    int firstFrame() const { return frames ? frames->first : 1; }
+};
+
+/// Tables of the scene file's sections, for the parameter reference.
+struct SceneSection {
+    std::string_view name, doc;
+    Schema schema;
+};
+std::vector<SceneSection> sceneSections();
+
+/// Reads and checks a scene file; every problem at once (Errors). Files it names are not opened, but must exist.
+Scene readScene(const std::filesystem::path& path, std::vector<std::filesystem::path>* files = nullptr);
+Scene parseScene(const Node& document, const std::filesystem::path& path);
+
+/// A scene of one OBJ file, drawn as it is modelled.
+Scene sceneFromObj(const std::filesystem::path& objPath);
+
+}  // namespace limn
