@@ -1,59 +1,82 @@
-// The scene's data, as uploaded by src/frame/gpu_scene.cpp. Structs mirror the ones there (std430).
+// The scene's data, as uploaded by src/frame/gpu_scene.cpp.
+//
+// Buffer textures, not storage buffers: a fetch brings up to four numbers at once, and software renderers read them several times faster.
 
-struct Instance {
-    dmat4 viewFromMesh;         // mesh units relative to the mesh's pivot → normalized view space
-    mat4 viewNormalFromMesh;    // its inverse transpose; length means nothing
-    uint firstVertex;           // of the mesh, in positions, normals and uvs
-    uint firstIndex;            // of the mesh, in indices
-    uint materialTable;         // words[materialTable + i] = material of the mesh's i-th material name
-    uint firstObject;           // object_id of the mesh's first part
-    uint materialWords;         // words[materialWords + triangle] = number of its material name; NO_WORDS: all 0
-    uint partWords;             // words[partWords + triangle] = number of its part; NO_WORDS: all 0
-    float facing;               // -1 where the transform mirrors
-    uint padding;
-};
+layout(binding = 8) uniform samplerBuffer positions;    // per vertex: xyz, mesh units from the mesh's pivot
+layout(binding = 9) uniform usamplerBuffer triangles;   // per triangle: its three vertices, counted within the mesh
+layout(binding = 10) uniform samplerBuffer normals;     // per vertex: xyz
+layout(binding = 11) uniform samplerBuffer uvs;         // per vertex: uv
+layout(binding = 12) uniform usamplerBuffer words;      // numbers of materials and parts; see Instance
+layout(binding = 13) uniform usamplerBuffer instances;  // eleven texels per instance; see below
+layout(binding = 14) uniform samplerBuffer materials;   // three texels per material
 
-struct Material {
-    vec4 color;                 // linear Rec.709
-    float shininess;            // Blinn-Phong exponent; no highlight at 1 or below
-    float specular;             // strength of the highlight
-    int levels;                 // of the texture's mip chain; 0 = no texture
-    int layer;                  // of the atlas
-    ivec4 place;                // xy: level 0 in the atlas; zw: its size, in texels
-};
-
-struct Light {
-    vec4 direction;             // xyz: towards the light, view space, unit; w: 0 sun, 1 point, 2 spot
-    vec4 position;              // xyz: normalized view space; w: 1 / distance of half strength, or 0
-    vec4 color;                 // linear, times intensity
-    vec4 cone;                  // x: cosine at the cone's edge; y: where it begins to fade
-    vec4 shadow;                // x: a texel's width (at unit distance, but for the sun); y: softness in texels; z: unused; w: 1 = has a map
-    vec4 shadowPlace[6];        // xy: the map's origin in the shadow texture; z: its side, in texels
-    mat4 shadowFromView[6];     // clip space of the map: one, or the six faces +x -x +y -y +z -z
-};
-
+const int INSTANCE_TEXELS = 11;
 const uint NO_WORDS = 0xffffffffu;
 
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };   // three per vertex
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(std430, binding = 2) readonly buffer Normals { float normals[]; };       // three per vertex
-layout(std430, binding = 3) readonly buffer Uvs { float uvs[]; };               // two per vertex
-layout(std430, binding = 4) readonly buffer Instances { Instance instances[]; };
-layout(std430, binding = 5) readonly buffer Words { uint words[]; };
-layout(std430, binding = 6) readonly buffer Materials { Material materials[]; };
-layout(std430, binding = 7) readonly buffer Lights { Light lights[]; };
+struct Instance {
+    uint firstVertex;       // of the mesh, in positions, normals and uvs
+    uint firstTriangle;     // of the mesh, in triangles
+    uint materialTable;     // words[materialTable + i] = material of the mesh's i-th material name
+    uint firstObject;       // object_id of the mesh's first part
+    uint materialWords;     // words[materialWords + triangle] = number of its material name; NO_WORDS: all 0
+    uint partWords;         // words[partWords + triangle] = number of its part; NO_WORDS: all 0
+    float facing;           // -1 where the transform mirrors
+};
 
-vec3 meshPosition(uint vertex) { return vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]); }
-vec3 meshNormal(uint vertex) { return vec3(normals[3u * vertex], normals[3u * vertex + 1u], normals[3u * vertex + 2u]); }
-vec2 meshUv(uint vertex) { return vec2(uvs[2u * vertex], uvs[2u * vertex + 1u]); }
-
-uint triangleMaterial(uint instance, uint triangle) {
-    uint at = instances[instance].materialWords;
-    uint local = at == NO_WORDS ? 0u : words[at + triangle];
-    return words[instances[instance].materialTable + local];
+Instance instanceAt(uint number) {
+    int at = int(number) * INSTANCE_TEXELS;
+    uvec4 a = texelFetch(instances, at + 9), b = texelFetch(instances, at + 10);
+    return Instance(a.x, a.y, a.z, a.w, b.x, b.y, uintBitsToFloat(b.z));
 }
 
-uint triangleObject(uint instance, uint triangle) {
-    uint at = instances[instance].partWords;
-    return instances[instance].firstObject + (at == NO_WORDS ? 0u : words[at + triangle]);
+// Mesh units relative to the mesh's pivot → normalized view space.
+vec3 viewFromMesh(uint number, vec3 point) {
+    int at = int(number) * INSTANCE_TEXELS + 6;
+    vec4 p = vec4(point, 1.0);
+    return vec3(dot(uintBitsToFloat(texelFetch(instances, at)), p), dot(uintBitsToFloat(texelFetch(instances, at + 1)), p), dot(uintBitsToFloat(texelFetch(instances, at + 2)), p));
+}
+
+// The other way round, in double precision: rows of a 3×4 matrix.
+struct MeshFromView { dvec3 rows[3]; dvec3 offset; };
+
+MeshFromView meshFromViewAt(uint number) {
+    int at = int(number) * INSTANCE_TEXELS;
+    MeshFromView m;
+    for (int row = 0; row < 3; ++row) {
+        uvec4 a = texelFetch(instances, at + 2 * row), b = texelFetch(instances, at + 2 * row + 1);
+        m.rows[row] = dvec3(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b.xy));
+        m.offset[row] = packDouble2x32(b.zw);
+    }
+    return m;
+}
+
+// A normal of the mesh in view space, of any length: the inverse transpose of view-from-mesh is the transpose of mesh-from-view.
+vec3 viewNormal(MeshFromView m, vec3 normal) {
+    dvec3 n = m.rows[0] * double(normal.x) + m.rows[1] * double(normal.y) + m.rows[2] * double(normal.z);
+    // Scaled into float's range before it becomes float: instances may be scaled by anything.
+    return vec3(n / max(max(abs(n.x), abs(n.y)), max(abs(n.z), 1e-300lf)));
+}
+
+uint triangleMaterial(Instance instance, uint triangle) {
+    uint local = instance.materialWords == NO_WORDS ? 0u : texelFetch(words, int(instance.materialWords + triangle)).r;
+    return texelFetch(words, int(instance.materialTable + local)).r;
+}
+
+uint triangleObject(Instance instance, uint triangle) {
+    return instance.firstObject + (instance.partWords == NO_WORDS ? 0u : texelFetch(words, int(instance.partWords + triangle)).r);
+}
+
+struct Material {
+    vec3 color;         // linear Rec.709
+    int levels;         // of the texture's mip chain; 0 = no texture
+    float shininess;    // Blinn-Phong exponent; no highlight at 1 or below
+    float specular;     // strength of the highlight
+    int layer;          // of the atlas
+    ivec4 place;        // xy: level 0 in the atlas; zw: its size, in texels
+};
+
+Material materialAt(uint number) {
+    int at = int(number) * 3;
+    vec4 a = texelFetch(materials, at), b = texelFetch(materials, at + 1), c = texelFetch(materials, at + 2);
+    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), ivec4(c));
 }

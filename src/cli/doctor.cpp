@@ -24,7 +24,7 @@ ExitCode run(const DeviceFlags& flags) {
     const auto& limits = device.limits();
     fmt::print("\nchosen: {}, OpenGL {}\n", device.report().renderer, device.report().version);
     if (device.report().isSoftware) fmt::print("  This is a software renderer: right, but slow beside a GPU. If this machine has one, its driver's EGL files are missing.\n");
-    fmt::print("  largest texture {}, largest viewport {}, largest buffer {} MiB\n", limits.maxTextureSize, limits.maxViewport, limits.maxStorageBlock >> 20);
+    fmt::print("  largest texture {}, largest viewport {}, {} million elements per buffer texture\n", limits.maxTextureSize, limits.maxViewport, limits.maxBufferTexels / 1000000);
     fmt::print("\nCPU threads: {}\n", std::thread::hardware_concurrency());
     try {
         static_cast<void>(imageModule());

@@ -78,6 +78,7 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;
     pass.drawings = layout.drawings;
+    pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
     pass.note = fmt::format("{} map{}", layout.drawings.size(), layout.drawings.size() == 1 ? "" : "s");
     graph_.passes.push_back(std::move(pass));
     return shadowMaps_;

@@ -16,6 +16,7 @@ struct Aov {
     bool isColour;       ///< display-encoded in 8 and 16 bit files
     bool isAveraged;     ///< the mean over the pixel's samples; else the value at the pixel's centre
     std::string_view doc;
+    bool isDirection = false;   ///< unit vectors, kept as two octahedral coordinates (shaders/lib/normals.glsl)
 
     int channelCount() const {
         int count = 0;
@@ -33,8 +34,8 @@ inline constexpr Aov albedo{"albedo", Format::rgba16f, {"R", "G", "B", "A"}, tru
 inline constexpr Aov ambientOcclusion{"ambient_occlusion", Format::r32f, {"Y"}, false, true, "Filtered ambient visibility: 1 open, 0 closed, background 1."};
 inline constexpr Aov ambientOcclusionRaw{"ambient_occlusion_raw", Format::r32f, {"Y"}, false, true, "Ambient visibility before its filter, noise and all."};
 inline constexpr Aov edges{"edges", Format::rgba16f, {"R", "G", "B", "A"}, true, true, "The lines alone. Linear Rec.709, premultiplied alpha."};
-inline constexpr Aov normal{"normal", Format::rgba32f, {"X", "Y", "Z"}, false, false, "Shading normal in view space (x right, y up, z towards the viewer); zero on the background."};
-inline constexpr Aov normalGeometric{"normal_geometric", Format::rgba32f, {"X", "Y", "Z"}, false, false, "Normal of the triangle in view space, towards the viewer; zero on the background."};
+inline constexpr Aov normal{"normal", Format::rg32f, {"X", "Y", "Z"}, false, false, "Shading normal in view space (x right, y up, z towards the viewer); zero on the background.", true};
+inline constexpr Aov normalGeometric{"normal_geometric", Format::rg32f, {"X", "Y", "Z"}, false, false, "Normal of the triangle in view space, towards the viewer; zero on the background.", true};
 inline constexpr Aov depth{"depth", Format::r32f, {"Z"}, false, false, "Distance along the view axis in scene units; infinite on the background."};
 inline constexpr Aov position{"position", Format::rgba32f, {"X", "Y", "Z"}, false, false, "Position in the scene's space and units; zero on the background."};
 inline constexpr Aov objectId{"object_id", Format::r32ui, {"id"}, false, false, "Number of the object (instances in scene order, their parts in file order), from 1; 0 on the background."};

@@ -9,7 +9,8 @@
 namespace limn {
 namespace {
 
-constexpr glm::ivec2 kGroup(8, 8);
+// Long rows: neighbours in a row are neighbours in memory.
+constexpr glm::ivec2 kGroup(32, 8);
 
 const Resource& resourceOf(const Graph& graph, ResourceId id) { return graph.resources[static_cast<std::size_t>(id.index)]; }
 
@@ -32,33 +33,49 @@ std::string samplers(const Graph& graph, const Pass& pass) {
 
 }  // namespace
 
+bool Executor::drawsScreen(const Pass& pass) const {
+    // Reading what stands in an image while changing it is for compute shaders alone.
+    bool updates = false;
+    for (const auto& write : pass.writes) updates = updates || write.update;
+    return device_.report().isSoftware && !updates;
+}
+
 const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+    const bool screen = pass.kind == Pass::Kind::compute && drawsScreen(pass);
+    const bool compute = pass.kind == Pass::Kind::compute && !screen;
     std::vector<gl::ShaderStage> stages;
-    std::string head = prelude(graph, planned, view), outputs;
+    std::string head = prelude(graph, planned, view), outputs, names;
     int slot = 0;
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
         const Write& write = pass.writes[w];
         const FormatInfo format = info(resourceOf(graph, write.resource).format);
-        if (pass.kind == Pass::Kind::compute) {
-            outputs += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n#define WRITES_{}\n", slot++, format.glslImage, write.update ? "" : "writeonly", format.glslPrefix, write.name, write.name);
-        } else if (!format.glslImage.empty()) {
-            constexpr std::string_view floats[] = {"", "float", "vec2", "vec3", "vec4"}, integers[] = {"", "uint", "uvec2", "uvec3", "uvec4"};
-            const auto channels = static_cast<std::size_t>(format.channels);
-            outputs += fmt::format("layout(location = {}) out {} {};\n#define WRITES_{}\n", slot++, format.glslPrefix == "u" ? integers[channels] : floats[channels], write.name, write.name);
+        names += fmt::format("#define WRITES_{}\n", write.name);
+        if (format.glslImage.empty()) continue;   // depth
+        constexpr std::string_view floats[] = {"", "float", "vec2", "vec3", "vec4"}, integers[] = {"", "uint", "uvec2", "uvec3", "uvec4"};
+        constexpr std::string_view swizzles[] = {"", "x", "xy", "xyz", "xyzw"};
+        const auto channels = static_cast<std::size_t>(format.channels);
+        const auto type = (format.glslPrefix == "u" ? integers : floats)[channels], wide = (format.glslPrefix == "u" ? integers : floats)[4];
+        if (compute) {
+            outputs += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", slot++, format.glslImage, write.update ? "" : "writeonly", format.glslPrefix, write.name);
+            if (!write.update) outputs += fmt::format("void write_{0}({1} v) {{ imageStore({0}, ivec2(gl_GlobalInvocationID.xy), v); }}\n", write.name, wide);
+        } else if (screen) {
+            outputs += fmt::format("layout(location = {0}) out {1} out_{2};\nvoid write_{2}({3} v) {{ out_{2} = v.{4}; }}\n", slot++, type, write.name, wide, swizzles[channels]);
+        } else {
+            outputs += fmt::format("layout(location = {}) out {} {};\n", slot++, type, write.name);
         }
     }
-    if (pass.kind == Pass::Kind::compute) {
-        head += fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\n", kGroup.x, kGroup.y);
-        stages.push_back({gl::ShaderStage::Kind::compute, head + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
+    if (compute) {
+        head += fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
+        stages.push_back({gl::ShaderStage::Kind::compute, head + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
+    } else if (screen) {
+        stages.push_back({gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load("frame/screen.vert")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n" + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
     } else {
         // The vertex stage needs to know what is written, so that it hands on nothing else.
-        std::string names;
-        for (std::size_t w = 0; w < pass.writes.size(); ++w)
-            if (planned.writes[w]) names += fmt::format("#define WRITES_{}\n", pass.writes[w].name);
         stages.push_back({gl::ShaderStage::Kind::vertex, head + names + shaders_.load(pass.shader + ".vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".frag")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".frag")});
     }
     std::string key;
     for (const auto& stage : stages) key += stage.source;
@@ -92,19 +109,21 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
     allocate(plan);
     const UniformBlock block = viewBlock(view);
     const gl::Buffer viewBuffer(block.bytes, "view");
-    std::vector<gl::TimerQuery> queries;
+    std::vector<gl::Timestamp> stamps;
+    const auto stamp = [&] {
+        if (!measure) return;
+        gl::finish();   // a pass's time is its own, not that of what is still under way
+        stamps.emplace_back();
+    };
     if (measure && !timerIsWarm_) {
         // The first timer query of a process gives garbage on llvmpipe: let it measure nothing.
-        const gl::TimerQuery discarded;
-        discarded.begin();
-        discarded.end();
-        static_cast<void>(discarded.milliseconds());
+        static_cast<void>(gl::Timestamp().milliseconds());
         timerIsWarm_ = true;
     }
+    stamp();
     for (const auto& planned : plan.passes) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
         const gl::DebugGroup group(pass.name);
-        if (measure) queries.emplace_back().begin();
         const gl::Program& linked = program(graph, planned, block);
         linked.use();
         viewBuffer.bindUniform(0);
@@ -113,16 +132,14 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         scene.bind();
         int unit = 0;
         for (const auto& read : pass.reads) texture(plan, read.resource).bindSampler(unit++);
-        if (pass.kind == Pass::Kind::compute) runCompute(graph, plan, planned);
-        else runRaster(graph, plan, planned, view, scene, linked);
-        if (measure) {
-            gl::finish();
-            queries.back().end();
-        }
+        if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
+        else if (drawsScreen(pass)) runScreen(graph, plan, planned);
+        else runCompute(graph, plan, planned);
+        stamp();
     }
     if (measure) {
         milliseconds_.resize(plan.passes.size());
-        for (std::size_t i = 0; i < queries.size(); ++i) milliseconds_[i] += queries[i].milliseconds();
+        for (std::size_t i = 0; i < plan.passes.size(); ++i) milliseconds_[i] += stamps[i + 1].milliseconds() - stamps[i].milliseconds();
     }
     device_.check("drawing");
 }
@@ -138,6 +155,21 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
         size = glm::max(size, image.size());
     }
     gl::dispatch(size, kGroup);
+}
+
+void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned) {
+    const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+    std::vector<const gl::Texture*> colours;
+    for (std::size_t w = 0; w < pass.writes.size(); ++w)
+        if (planned.writes[w]) colours.push_back(&texture(plan, pass.writes[w].resource));
+    const gl::Framebuffer framebuffer(colours, nullptr, pass.name);
+    framebuffer.bind();
+    gl::setDepthTest(gl::DepthTest::none);
+    gl::setViewport({0, 0}, colours.front()->size());
+    if (!noVertices_) noVertices_ = gl::VertexArray::empty();
+    noVertices_.bind();
+    gl::drawScreen();
+    gl::barrier();
 }
 
 void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& linked) {

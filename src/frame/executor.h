@@ -1,4 +1,8 @@
 // Runs a Plan: makes its textures and programs, binds what each pass declared, times it if asked.
+//
+// Compute passes are written once and can run two ways, to the same bits: as compute shaders on a GPU, whose compute units outnumber its
+// raster pipeline by far; and as one large triangle on a software renderer, where storing a pixel from a fragment shader costs a third
+// (measured on llvmpipe: 4.6 ns against 15 ns for RGBA32F).
 #pragma once
 
 #include "frame/gpu_scene.h"
@@ -34,6 +38,8 @@ private:
     const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
+    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned);
+    bool drawsScreen(const Pass& pass) const;
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
 
     const gl::Device& device_;
@@ -41,6 +47,7 @@ private:
     std::unordered_map<std::string, gl::Program> programs_;   ///< by their whole source
     std::map<std::size_t, gl::Texture> textures_;             ///< by index into Plan::textures
     std::vector<double> milliseconds_;
+    gl::VertexArray noVertices_;
     bool timerIsWarm_ = false;
 };
 

@@ -15,24 +15,30 @@
 namespace limn {
 namespace {
 
-// Mirrors of the structs in shaders/frame/scene.glsl (std430).
+// Texture units of the buffers in shaders/frame/scene.glsl and of the atlas in shaders/lib/texture.glsl.
+enum Unit { positionsUnit = 8, trianglesUnit, normalsUnit, uvsUnit, wordsUnit, instancesUnit, materialsUnit, atlasUnit };
+constexpr int kLightsBinding = 2;
+
+// One instance, as shaders/frame/scene.glsl fetches it: eleven texels of sixteen bytes.
 struct GpuInstance {
-    glm::dmat4 viewFromMesh;
-    glm::mat4 viewNormalFromMesh;
-    std::uint32_t firstVertex, firstIndex, materialTable, firstObject, materialWords, partWords;
+    double meshFromView[3][4];
+    float viewFromMesh[3][4];
+    std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
+    std::uint32_t materialWords, partWords;
     float facing;
     std::uint32_t padding;
 };
-static_assert(sizeof(GpuInstance) == 224);
+static_assert(sizeof(GpuInstance) == 11 * 16);
 
+// Three texels.
 struct GpuMaterial {
-    glm::vec4 color;
-    float shininess, specular;
-    int levels, layer;
-    glm::ivec4 place;
+    float color[3], levels;
+    float shininess, specular, layer, padding;
+    float place[4];
 };
-static_assert(sizeof(GpuMaterial) == 48);
+static_assert(sizeof(GpuMaterial) == 3 * 16);
 
+// std140, as in shaders/frame/lights.glsl.
 struct GpuLight {
     glm::vec4 direction, position, color, cone, shadow;
     glm::vec4 shadowPlace[6];
@@ -57,6 +63,19 @@ std::vector<T> concatenate(std::span<const TriMesh> meshes, std::vector<T> TriMe
     all.reserve(countAll(meshes, member));
     for (const auto& mesh : meshes) all.insert(all.end(), (mesh.*member).begin(), (mesh.*member).end());
     return all;
+}
+
+/// A scale of 0 flattens a mesh, which is a fair thing to ask for but leaves no way back from the view: a billionth of the size does both.
+glm::dmat3 invertible(glm::dmat3 m) {
+    const double size = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+    if (size == 0) return glm::dmat3(std::numeric_limits<float>::min());
+    for (int c = 0; c < 3; ++c) {
+        if (glm::length(m[c]) > 1e-9 * size) continue;
+        glm::dvec3 across = glm::cross(m[(c + 1) % 3], m[(c + 2) % 3]);
+        if (glm::length(across) == 0) across = glm::length(m[(c + 1) % 3]) > 0 ? glm::dvec3(-m[(c + 1) % 3].y, m[(c + 1) % 3].x, 1e-3 * size) : glm::dvec3(0, 0, 1);
+        m[c] = glm::normalize(across) * (1e-9 * size);
+    }
+    return m;
 }
 
 /// Reversed-depth perspective over `fov` (full angle, radians), square.
@@ -190,25 +209,25 @@ gl::Buffer GpuScene::upload(std::span<const std::byte> data, const char* label) 
     return gl::Buffer(data, label);
 }
 
-GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, long long maxStorageBlock, int maxTextureSize) : needs_(needs) {
+GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, const gl::Limits& limits) : needs_(needs) {
     if (!has(needs, SceneData::positions)) return;
-    const auto largest = static_cast<std::uint64_t>(maxStorageBlock);
-    if (countAll(meshes, &TriMesh::indices) * 4 > largest || countAll(meshes, &TriMesh::positions) * 12 > largest)
-        throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene's meshes need more than the {} that this GL device allows in one buffer", bytesText(largest)), "use a coarser mesh or another device");
+    const auto most = static_cast<std::uint64_t>(limits.maxBufferTexels);
+    if (countAll(meshes, &TriMesh::indices) / 3 > most || countAll(meshes, &TriMesh::positions) > most)
+        throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene has more triangles or vertices than this GL device takes ({})", most), "use coarser meshes or another device");
 
     std::vector<std::uint32_t> words;
-    std::uint32_t vertices = 0, indices = 0;
+    std::uint32_t vertices = 0, triangles = 0;
     for (const auto& mesh : meshes) {
-        MeshPlace place{vertices, indices, static_cast<std::uint32_t>(mesh.indices.size()), kNoWords, kNoWords, mesh.pivot};
+        MeshPlace place{vertices, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, mesh.pivot};
         const auto addWords = [&](const std::vector<std::uint32_t>& values) {
             if (values.empty()) return kNoWords;
             words.insert(words.end(), values.begin(), values.end());
             return static_cast<std::uint32_t>(words.size() - values.size());
         };
-        place.materialWords = addWords(mesh.triangleMaterial);
+        if (has(needs, SceneData::materials)) place.materialWords = addWords(mesh.triangleMaterial);
         place.partWords = addWords(mesh.trianglePart);
         vertices += static_cast<std::uint32_t>(mesh.positions.size());
-        indices += place.indexCount;
+        triangles += place.triangleCount;
         places_.push_back(place);
     }
     std::vector<gl::DrawCommand> commands;
@@ -218,36 +237,43 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
         materialTables_.push_back(static_cast<std::uint32_t>(words.size()));
         words.insert(words.end(), instance.materials.begin(), instance.materials.end());
         const auto number = static_cast<std::uint32_t>(numbers.size());
-        commands.push_back({place.indexCount, 1, place.firstIndex, static_cast<std::int32_t>(place.firstVertex), number});
+        commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3, static_cast<std::int32_t>(place.firstVertex), number});
         numbers.push_back(number);
     }
     positions_ = upload(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
-    indices_ = upload(bytesOf(concatenate(meshes, &TriMesh::indices)), "indices");
-    words_ = upload(bytesOf(words), "triangle words");
+    indices_ = upload(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
+    words_ = upload(bytesOf(words), "words");
     commands_ = upload(bytesOf(commands), "draw commands");
     instanceNumbers_ = upload(bytesOf(numbers), "instance numbers");
+    positionsView_ = gl::BufferView(positions_, gl::Element::float3, "positions");
+    trianglesView_ = gl::BufferView(indices_, gl::Element::uint3, "triangles");
+    wordsView_ = gl::BufferView(words_, gl::Element::uint1, "words");
     std::vector<gl::VertexInput> inputs{{&positions_, 0, 3}, {&instanceNumbers_, 1, 0}};
     if (has(needs, SceneData::normals)) {
         normals_ = upload(bytesOf(concatenate(meshes, &TriMesh::normals)), "normals");
+        normalsView_ = gl::BufferView(normals_, gl::Element::float3, "normals");
         inputs.push_back({&normals_, 2, 3});
     }
     if (has(needs, SceneData::uvs)) {
         uvs_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvs)), "uvs");
+        uvsView_ = gl::BufferView(uvs_, gl::Element::float2, "uvs");
         inputs.push_back({&uvs_, 3, 2});
     }
     vertexArray_ = gl::VertexArray(inputs, indices_, "scene");
 
-    atlasEntries_.resize(scene.materials.size(), {glm::ivec4(0), 0});
-    textureSizes_.resize(scene.materials.size(), glm::ivec2(0));
-    if (has(needs, SceneData::textures)) loadTextures(scene, maxTextureSize);
+    atlasEntries_.resize(scene.materials.size());
+    if (has(needs, SceneData::textures)) loadTextures(scene, limits.maxTextureSize);
     if (has(needs, SceneData::materials)) {
         std::vector<GpuMaterial> gpuMaterials;
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             const auto& m = scene.materials[i];
             const auto& entry = atlasEntries_[i];
-            gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b, 1}, m.shininess, m.specular, entry.levels, entry.place.z, {entry.place.x, entry.place.y, textureSizes_[i].x, textureSizes_[i].y}});
+            const auto number = [](int value) { return static_cast<float>(value); };
+            gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b}, number(entry.levels), m.shininess, m.specular, number(entry.place.z), 0,
+                                    {number(entry.place.x), number(entry.place.y), number(entry.size.x), number(entry.size.y)}});
         }
         materials_ = upload(bytesOf(gpuMaterials), "materials");
+        materialsView_ = gl::BufferView(materials_, gl::Element::float4, "materials");
     }
 }
 
@@ -268,14 +294,14 @@ void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
         if (side > maxTextureSize) throw Error(ExitCode::outOfMemory, {file}, fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y), "make it smaller");
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second->footprint().y > b.second->footprint().y; });
-    std::map<std::string, glm::ivec4> places;
+    std::map<std::string, glm::ivec3> places;
     glm::ivec3 pen(0);
     int shelf = 0;
     for (const auto& [file, chain] : order) {
         const glm::ivec2 footprint = chain->footprint();
         if (pen.x + footprint.x > side) pen.x = 0, pen.y += shelf, shelf = 0;
         if (pen.y + footprint.y > side) pen = {0, 0, pen.z + 1}, shelf = 0;
-        places[file] = {pen, 0};
+        places[file] = pen;
         pen.x += footprint.x;
         shelf = std::max(shelf, footprint.y);
     }
@@ -286,8 +312,7 @@ void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const auto& file = scene.materials[i].texture;
         if (file.empty()) continue;
-        atlasEntries_[i] = {places[file], chains[file].levels};
-        textureSizes_[i] = chains[file].size;
+        atlasEntries_[i] = {places[file], chains[file].levels, chains[file].size};
     }
 }
 
@@ -298,13 +323,21 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
         const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
         // The pivot joins the translation in double: nothing large is left when the sum becomes small.
         const glm::dmat4 viewFromMesh = view.viewFromWorld * instance.worldFromMesh * glm::translate(glm::dmat4(1), place.pivot);
-        const glm::dmat3 linear(viewFromMesh);
-        const double determinant = glm::determinant(linear);
-        // Scaled to the order of one, since only directions matter and tiny determinants would overflow.
-        const double scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-        glm::dmat3 normal(1);
-        if (determinant != 0 && scale > 0) normal = glm::transpose(glm::inverse(linear / scale));
-        instances.push_back({viewFromMesh, glm::mat4(glm::mat3(normal)), place.firstVertex, place.firstIndex, materialTables_[i], instance.firstObject, place.materialWords, place.partWords, determinant < 0 ? -1.0f : 1.0f, 0});
+        const glm::dmat3 linear = invertible(glm::dmat3(viewFromMesh));
+        const glm::dmat3 inverse = glm::inverse(linear);
+        const glm::dvec3 offset = inverse * -glm::dvec3(viewFromMesh[3]);
+        GpuInstance gpu{};
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                gpu.meshFromView[row][column] = inverse[column][row];
+                gpu.viewFromMesh[row][column] = static_cast<float>(linear[column][row]);
+            }
+            gpu.meshFromView[row][3] = offset[row];
+            gpu.viewFromMesh[row][3] = static_cast<float>(viewFromMesh[3][row]);
+        }
+        gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
+        gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.facing = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
+        instances.push_back(gpu);
     }
     const auto bytes = bytesOf(instances);
     return {bytes.begin(), bytes.end()};
@@ -345,23 +378,26 @@ void GpuScene::setView(const DrawScene& scene, const View& view) {
         else buffer.write(data);
     };
     put(instances_, instanceBytes(scene, view), "instances");
+    instancesView_ = gl::BufferView(instances_, gl::Element::uint4, "instances");
     if (has(needs_, SceneData::lights)) put(lights_, lightBytes(scene, view), "lights");
 }
 
 void GpuScene::bind() const {
     if (!has(needs_, SceneData::positions)) return;
-    positions_.bindStorage(0);
-    indices_.bindStorage(1);
-    if (normals_) normals_.bindStorage(2);
-    if (uvs_) uvs_.bindStorage(3);
-    instances_.bindStorage(4);
-    words_.bindStorage(5);
-    if (materials_) materials_.bindStorage(6);
-    if (lights_) lights_.bindStorage(7);
-    if (atlas_) atlas_.bindSampler(kAtlasUnit);
-    vertexArray_.bind();
+    positionsView_.bind(positionsUnit);
+    trianglesView_.bind(trianglesUnit);
+    wordsView_.bind(wordsUnit);
+    instancesView_.bind(instancesUnit);
+    if (normalsView_) normalsView_.bind(normalsUnit);
+    if (uvsView_) uvsView_.bind(uvsUnit);
+    if (materialsView_) materialsView_.bind(materialsUnit);
+    if (lights_) lights_.bindUniform(kLightsBinding);
+    if (atlas_) atlas_.bindSampler(atlasUnit);
 }
 
-void GpuScene::draw() const { gl::drawElements(commands_, static_cast<int>(places_.empty() ? 0 : materialTables_.size())); }
+void GpuScene::draw() const {
+    vertexArray_.bind();
+    gl::drawElements(commands_, static_cast<int>(materialTables_.size()));
+}
 
 }  // namespace limn

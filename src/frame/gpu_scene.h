@@ -3,6 +3,7 @@
 
 #include "frame/view.h"
 #include "geometry/tri_mesh.h"
+#include "gl/device.h"
 #include "gl/objects.h"
 #include "graph/graph.h"
 #include "image/image.h"
@@ -40,7 +41,7 @@ ShadowLayout shadowLayout(std::span<const Light> lights);
 class GpuScene {
 public:
     /// `meshes` may be released afterwards. Reads the textures' files when the plan needs them.
-    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, long long maxStorageBlock, int maxTextureSize);
+    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, const gl::Limits& limits);
 
     /// Recomputes what depends on the camera: instance transforms in double precision, lights.
     void setView(const DrawScene& scene, const View& view);
@@ -50,22 +51,20 @@ public:
     std::uint64_t bytes() const { return bytes_; }
     bool hasTextures() const { return static_cast<bool>(atlas_); }
 
-    static constexpr int kAtlasUnit = 15;
-
 private:
     gl::Buffer upload(std::span<const std::byte> data, const char* label);
     void loadTextures(const DrawScene& scene, int maxTextureSize);
     std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
     std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
 
-    struct MeshPlace { std::uint32_t firstVertex, firstIndex, indexCount, materialWords, partWords; glm::dvec3 pivot; };
+    struct MeshPlace { std::uint32_t firstVertex, firstTriangle, triangleCount, materialWords, partWords; glm::dvec3 pivot; };
     std::vector<MeshPlace> places_;
     std::vector<std::uint32_t> materialTables_;   ///< offset of each instance's table in the words buffer
-    struct AtlasEntry { glm::ivec4 place; int levels; };   ///< x, y, layer, unused
+    struct AtlasEntry { glm::ivec3 place{0}; int levels = 0; glm::ivec2 size{0}; };   ///< place: x, y, layer
     std::vector<AtlasEntry> atlasEntries_;        ///< of each material
-    std::vector<glm::ivec2> textureSizes_;
     SceneData needs_;
     gl::Buffer positions_, normals_, uvs_, indices_, words_, instances_, materials_, lights_, commands_, instanceNumbers_;
+    gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, wordsView_, instancesView_, materialsView_;
     gl::Texture atlas_;
     gl::VertexArray vertexArray_;
     std::uint64_t bytes_ = 0;

@@ -166,9 +166,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     GLint viewport[2];
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     limits_.maxViewport = std::min(viewport[0], viewport[1]);
-    GLint64 block = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
-    limits_.maxStorageBlock = block;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limits_.maxBufferTexels);
 }
 
 Device::~Device() = default;

@@ -27,7 +27,7 @@ struct DeviceOptions {
 struct Limits {
     int maxTextureSize = 0;
     int maxViewport = 0;
-    long long maxStorageBlock = 0;   ///< bytes of one shader storage buffer
+    int maxBufferTexels = 0;     ///< elements of one buffer texture
 };
 
 /// The context, current on the thread that made it until it is destroyed. One at a time.

@@ -14,6 +14,7 @@ GLenum internalFormat(Format format) {
         case Format::rgba8: return GL_RGBA8;
         case Format::r16f: return GL_R16F;
         case Format::r32f: return GL_R32F;
+        case Format::rg32f: return GL_RG32F;
         case Format::rgba16f: return GL_RGBA16F;
         case Format::rgba32f: return GL_RGBA32F;
         case Format::r32ui: return GL_R32UI;
@@ -51,8 +52,17 @@ Buffer::Buffer(std::span<const std::byte> data, const std::string& name) : size_
 void Buffer::write(std::span<const std::byte> data) {
     if (!data.empty()) glNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(data.size()), data.data());
 }
-void Buffer::bindStorage(int slot) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), id()); }
 void Buffer::bindUniform(int slot) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(slot), id()); }
+
+BufferView::BufferView(const Buffer& buffer, Element element, const std::string& name) {
+    constexpr GLenum formats[] = {GL_R32UI, GL_RGB32UI, GL_RGBA32UI, GL_RG32F, GL_RGB32F, GL_RGBA32F};
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    handle_ = Handle<releaseTexture>(id);
+    label(GL_TEXTURE, id, name);
+    glTextureBuffer(id, formats[static_cast<int>(element)], buffer.id());
+}
+void BufferView::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), handle_.get()); }
 
 Texture::Texture(Format format, glm::ivec2 size, const std::string& name) : format_(format), size_(size) {
     GLuint id = 0;
@@ -130,6 +140,14 @@ void Framebuffer::clearFloat(int attachment, glm::vec4 value) const { glClearNam
 void Framebuffer::clearInteger(int attachment, glm::uvec4 value) const { glClearNamedFramebufferuiv(handle_.get(), GL_COLOR, attachment, &value.x); }
 void Framebuffer::clearDepth(float value) const { glClearNamedFramebufferfv(handle_.get(), GL_DEPTH, 0, &value); }
 
+VertexArray VertexArray::empty() {
+    VertexArray array;
+    GLuint id = 0;
+    glCreateVertexArrays(1, &id);
+    array.handle_ = Handle<releaseVertexArray>(id);
+    return array;
+}
+
 VertexArray::VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& name) {
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
@@ -188,14 +206,13 @@ Program::Program(std::span<const ShaderStage> stages, const std::string& name) {
 void Program::use() const { glUseProgram(handle_.get()); }
 void Program::setInt(const char* uniform, int value) const { glProgramUniform1i(handle_.get(), glGetUniformLocation(handle_.get(), uniform), value); }
 
-TimerQuery::TimerQuery() {
+Timestamp::Timestamp() {
     GLuint id = 0;
-    glCreateQueries(GL_TIME_ELAPSED, 1, &id);
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
     handle_ = Handle<releaseQuery>(id);
+    glQueryCounter(id, GL_TIMESTAMP);
 }
-void TimerQuery::begin() const { glBeginQuery(GL_TIME_ELAPSED, handle_.get()); }
-void TimerQuery::end() const { glEndQuery(GL_TIME_ELAPSED); }
-double TimerQuery::milliseconds() const {
+double Timestamp::milliseconds() const {
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(handle_.get(), GL_QUERY_RESULT, &nanoseconds);
     return static_cast<double>(nanoseconds) * 1e-6;
@@ -209,6 +226,7 @@ void dispatch(glm::ivec2 size, glm::ivec2 group) {
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
     barrier();
 }
+void drawScreen() { glDrawArrays(GL_TRIANGLES, 0, 3); }
 void drawElements(const Buffer& commands, int count) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));

@@ -46,7 +46,6 @@ public:
     Buffer() = default;
     Buffer(std::span<const std::byte> data, const std::string& label);
     void write(std::span<const std::byte> data);   ///< same size as made with
-    void bindStorage(int slot) const;
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
     Id id() const { return handle_.get(); }
@@ -55,6 +54,21 @@ public:
 private:
     Handle<releaseBuffer> handle_;
     std::size_t size_ = 0;
+};
+
+/// What one fetch from a buffer brings.
+enum class Element { uint1, uint3, uint4, float2, float3, float4 };
+
+/// A buffer that shaders fetch from as a buffer texture.
+class BufferView {
+public:
+    BufferView() = default;
+    BufferView(const Buffer& buffer, Element element, const std::string& label);
+    void bind(int unit) const;
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    Handle<releaseTexture> handle_;
 };
 
 /// 2D textures, one level, nearest, clamped; or an array of RGBA8 sRGB layers for pictures.
@@ -107,7 +121,10 @@ class VertexArray {
 public:
     VertexArray() = default;
     VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& label);
+    /// For drawings that make their vertices up.
+    static VertexArray empty();
     void bind() const;
+    explicit operator bool() const { return static_cast<bool>(handle_); }
 
 private:
     Handle<releaseVertexArray> handle_;
@@ -131,12 +148,10 @@ private:
     Handle<releaseProgram> handle_;
 };
 
-/// Elapsed GPU time between begin and end.
-class TimerQuery {
+/// The GPU's clock, at the point of the command stream where this was made.
+class Timestamp {
 public:
-    TimerQuery();
-    void begin() const;
-    void end() const;
+    Timestamp();
     double milliseconds() const;   ///< waits for the result
 
 private:
@@ -162,6 +177,7 @@ struct DrawCommand {
 enum class DepthTest { none, greater };
 
 void dispatch(glm::ivec2 size, glm::ivec2 group);      ///< enough groups to cover the size, then a barrier
+void drawScreen();                                     ///< the three vertices of shaders/frame/screen.vert
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
 void setViewport(glm::ivec2 origin, glm::ivec2 size);
 void setDepthTest(DepthTest test);

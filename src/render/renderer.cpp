@@ -37,6 +37,22 @@ ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, in
     return request;
 }
 
+/// The inverse of encodeNormal in shaders/lib/normals.glsl; NO_NORMAL becomes zero.
+std::vector<float> decodeDirections(const std::vector<float>& encoded) {
+    std::vector<float> decoded(encoded.size() / 2 * 3);
+    tbb::parallel_for(std::size_t{0}, encoded.size() / 2, [&](std::size_t i) {
+        const float x = encoded[2 * i], y = encoded[2 * i + 1];
+        if (x > 1) return;
+        glm::vec3 n(x, y, 1 - std::abs(x) - std::abs(y));
+        const float fold = std::max(-n.z, 0.0f);
+        n.x -= n.x >= 0 ? fold : -fold;
+        n.y -= n.y >= 0 ? fold : -fold;
+        n = glm::normalize(n);
+        for (int k = 0; k < 3; ++k) decoded[3 * i + static_cast<std::size_t>(k)] = n[k];
+    });
+    return decoded;
+}
+
 /// Reads an image back, turned so that rows run from the top.
 Image readBack(const gl::Texture& texture, const Aov& aov) {
     const int channels = aov.channelCount();
@@ -49,7 +65,8 @@ Image readBack(const gl::Texture& texture, const Aov& aov) {
             for (std::size_t i = 0; i < row; ++i) image.pixels[row * static_cast<std::size_t>(y) + i] = static_cast<float>(pixels[from + i]);
         });
     };
-    if (aov.isInteger()) flip(texture.readIntegers(channels));
+    if (aov.isDirection) flip(decodeDirections(texture.read(2)));
+    else if (aov.isInteger()) flip(texture.readIntegers(channels));
     else flip(texture.read(channels));
     return image;
 }
@@ -179,7 +196,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
         if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs)});
     });
     watch.lap("triangles");
-    GpuScene gpu(scene, meshes, needs, device_.limits().maxStorageBlock, device_.limits().maxTextureSize);
+    GpuScene gpu(scene, meshes, needs, device_.limits());
     meshes.clear();
     watch.lap("upload");
     executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);

@@ -1,6 +1,9 @@
 // Ambient occlusion from a few points around each pixel (Lajzer & Nottingham, pass 2).
 #include "lib/space.glsl"
 #include "lib/random.glsl"
+#ifdef HEMISPHERE
+#include "lib/normals.glsl"
+#endif
 
 // A point this much behind the surface it is compared with is hidden: room for the rounding of depths (relative).
 const float DEPTH_SLACK = 1e-5;
@@ -20,22 +23,22 @@ float depthAtHeight(ivec2 tap, vec3 position, vec3 normal, float height, float o
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     float centre = texelFetch(depth, pixel, 0).r;
     if (isBackground(centre)) {
-        imageStore(result, pixel, vec4(1));
+        write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
     vec3 mirror = onSphere(evenlySpread(pixel));
 #ifdef HEMISPHERE
-    vec3 surface = texelFetch(normal, pixel, 0).xyz;
+    vec3 surface = decodeNormal(texelFetch(normal, pixel, 0).xy);
 #else
     vec3 surface = vec3(0, 0, 1);
 #endif
     float hidden = 0.0;
-    for (int i = 0; i < params.count; ++i) {
+    for (int i = 0; i < POINT_COUNT; ++i) {
         vec3 offset = reflect(params.kernelPoints[i].xyz, mirror);
 #ifdef HEMISPHERE
         offset = dot(offset, surface) < 0.0 ? -offset : offset;
@@ -71,10 +74,10 @@ void main() {
 #endif
         hidden += isHidden;
     }
-    float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(params.count);
+    float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(POINT_COUNT);
 #ifdef QUADRATIC
     share *= share;
 #endif
     float open = 1.0 - share;
-    imageStore(result, pixel, vec4(params.strength == 1.0 ? open : pow(max(open, 0.0), params.strength)));
+    write_result(vec4(params.strength == 1.0 ? open : pow(max(open, 0.0), params.strength)));
 }

@@ -4,7 +4,7 @@
 const float WEIGHTS[3] = float[](0.25, 0.5, 0.25);
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     float sum = 0.0;
     for (int y = -1; y <= 1; ++y)
@@ -15,5 +15,5 @@ void main() {
             tap = clamp(tap, within, view.size - view.raster + within);
             sum += WEIGHTS[x + 1] * WEIGHTS[y + 1] * texelFetch(source, tap, 0).r;
         }
-    imageStore(result, pixel, vec4(sum));
+    write_result(vec4(sum));
 }

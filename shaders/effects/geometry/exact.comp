@@ -1,142 +1,153 @@
-// Resolves the visibility buffer: evaluates, analytically and for each pixel, just what the plan reads of the triangle seen there.
+// Resolves the visibility buffer: evaluates, analytically and once per pixel, just what the plan reads of the triangle seen there.
 //
-// The triangle's plane and the ray are intersected in double precision: the depth of a plane is right to half an ulp of the float it
-// is stored in, at every distance, tilt and size of triangle.
+// The pixel's ray is taken into the mesh's own space, where the vertices are exactly what was uploaded, and intersected with the
+// triangle's plane in double precision: depth is right to half an ulp of the float it is stored in, at every distance and tilt.
 #include "frame/scene.glsl"
 #include "lib/space.glsl"
+#include "lib/normals.glsl"
 #if defined(WRITES_albedo) && defined(TEXTURED)
 #include "lib/texture.glsl"
 #endif
+
+// A triangle in mesh space, and the way there from view space.
+struct Surface {
+    MeshFromView meshFromView;
+    dvec3 corner, edge1, edge2, plane;   // plane: edge1 × edge2
+};
 
 struct Hit {
     double depth;       // along the view axis
     vec2 weights;       // barycentric weights of the second and third corner
 };
 
-// A triangle in view space, seen from pixels.
-struct Surface {
-    dvec3 corner, edge1, edge2, plane;   // plane: edge1 × edge2
-    double area;                         // squared length of plane
-};
+// The component of v in which `plane` is largest.
+double along(dvec3 v, dvec3 plane) {
+    dvec3 a = abs(plane);
+    return a.x >= a.y && a.x >= a.z ? v.x : a.y >= a.z ? v.y : v.z;
+}
 
-// `bounded`: keep to the triangle. Texture gradients look at the neighbouring pixels' rays and must not be.
-Hit intersect(Surface s, dvec2 pixelCentre, bool bounded) {
+Hit intersect(Surface s, dvec2 pixelCentre) {
     dvec2 ray = pixelCentre * view.rayScaleExact + view.rayOffsetExact;
-    dvec3 origin = view.orthographic ? dvec3(ray, 0.0) : dvec3(0.0);
-    dvec3 direction = view.orthographic ? dvec3(0.0, 0.0, -1.0) : dvec3(ray, -1.0);
-    double slope = dot(s.plane, direction);
-    // Seen exactly edge-on the ray lies in the plane: take the first corner's depth.
-    double t = slope != 0.0 ? dot(s.plane, s.corner - origin) / slope : -s.corner.z;
-    // The pixel's centre may lie up to half a grid step outside: a steep plane must not run away there.
-    double z1 = -s.corner.z, z2 = z1 - s.edge1.z, z3 = z1 - s.edge2.z;
-    if (bounded) t = clamp(t, min(z1, min(z2, z3)), max(z1, max(z2, z3)));
-    dvec3 q = origin + t * direction - s.corner;
-    vec2 weights = vec2(dot(cross(q, s.edge2), s.plane) / s.area, dot(cross(s.edge1, q), s.plane) / s.area);
-    if (bounded) {
-        weights = clamp(weights, 0.0, 1.0);
-        weights.y = min(weights.y, 1.0 - weights.x);
+    dvec3 origin = s.meshFromView.offset, direction;
+    for (int i = 0; i < 3; ++i) {
+        double sideways = dot(s.meshFromView.rows[i].xy, ray);
+        // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into the mesh keeps t.
+        direction[i] = (view.orthographic ? 0.0lf : sideways) - s.meshFromView.rows[i].z;
+        if (view.orthographic) origin[i] += sideways;
     }
-    return Hit(t, weights);
+    double slope = dot(s.plane, direction);
+    // Seen exactly edge-on the ray lies in the plane; any depth on the triangle will do.
+    double t = slope != 0.0lf ? dot(s.plane, s.corner - origin) / slope : 0.0lf;
+    dvec3 q = origin + t * direction - s.corner;
+    double size = along(s.plane, s.plane);
+    return Hit(t, vec2(dvec2(along(cross(q, s.edge2), s.plane), along(cross(s.edge1, q), s.plane)) / (size != 0.0lf ? size : 1.0lf)));
 }
 
-vec2 uvAt(uvec3 corners, vec2 weights) {
-    vec2 first = meshUv(corners.x);
-    return first + weights.x * (meshUv(corners.y) - first) + weights.y * (meshUv(corners.z) - first);
+vec2 uvAt(ivec3 corners, vec2 weights) {
+    vec2 first = texelFetch(uvs, corners.x).xy;
+    return first + weights.x * (texelFetch(uvs, corners.y).xy - first) + weights.y * (texelFetch(uvs, corners.z).xy - first);
 }
 
-void storeBackground(ivec2 pixel) {
+void writeBackground() {
 #ifdef WRITES_depth
-    imageStore(depth, pixel, vec4(BACKGROUND_DEPTH));
+    write_depth(vec4(BACKGROUND_DEPTH));
 #endif
 #ifdef WRITES_normal
-    imageStore(normal, pixel, vec4(0));
+    write_normal(vec4(NO_NORMAL, 0, 0));
 #endif
 #ifdef WRITES_normal_geometric
-    imageStore(normal_geometric, pixel, vec4(0));
+    write_normal_geometric(vec4(NO_NORMAL, 0, 0));
 #endif
 #ifdef WRITES_position
-    imageStore(position, pixel, vec4(0));
+    write_position(vec4(0));
 #endif
 #ifdef WRITES_albedo
-    imageStore(albedo, pixel, vec4(0));
+    write_albedo(vec4(0));
 #endif
 #ifdef WRITES_object_id
-    imageStore(object_id, pixel, uvec4(0));
+    write_object_id(uvec4(0));
 #endif
 #ifdef WRITES_material_id
-    imageStore(material_id, pixel, uvec4(0));
+    write_material_id(uvec4(0));
 #endif
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     uvec2 id = texelFetch(visibility, pixel, 0).xy;
     if (id.x == 0u) {
-        storeBackground(pixel);
+        writeBackground();
         return;
     }
-    uint instance = id.x - 1u, triangle = id.y;
-    uint at = instances[instance].firstIndex + 3u * triangle;
-    uvec3 corners = instances[instance].firstVertex + uvec3(indices[at], indices[at + 1u], indices[at + 2u]);
+    uint number = id.x - 1u, triangle = id.y;
+    Instance instance = instanceAt(number);
 
 #if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) || (defined(WRITES_albedo) && defined(TEXTURED))
-    dmat4 viewFromMesh = instances[instance].viewFromMesh;
-    dvec3 first = dvec3(meshPosition(corners.x));
+    ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
+    vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz, p2 = texelFetch(positions, corners.z).xyz;
     Surface s;
-    s.corner = dvec3(viewFromMesh * dvec4(first, 1.0));
-    s.edge1 = dmat3(viewFromMesh) * (dvec3(meshPosition(corners.y)) - first);
-    s.edge2 = dmat3(viewFromMesh) * (dvec3(meshPosition(corners.z)) - first);
+    s.meshFromView = meshFromViewAt(number);
+    s.corner = dvec3(p0);
+    s.edge1 = dvec3(p1) - s.corner;
+    s.edge2 = dvec3(p2) - s.corner;
     s.plane = cross(s.edge1, s.edge2);
-    s.area = max(dot(s.plane, s.plane), 1e-300lf);
     dvec2 centre = dvec2(pixel + view.origin) + 0.5lf;
-    Hit hit = intersect(s, centre, true);
+    Hit hit = intersect(s, centre);
+    // The centre may lie up to half a grid step outside the triangle: a steep plane must not run away there.
+    vec3 z = -vec3(viewFromMesh(number, p0).z, viewFromMesh(number, p1).z, viewFromMesh(number, p2).z);
+    float least = min(z.x, min(z.y, z.z)), most = max(z.x, max(z.y, z.z));
+    // The bounds are floats: an ulp or two of room keeps them from cutting into exact depths.
+    float room = 4e-7 * max(abs(least), abs(most));
+    double depthHere = clamp(hit.depth, double(least - room), double(most + room));
+    vec2 weights = clamp(hit.weights, 0.0, 1.0);
+    weights.y = min(weights.y, 1.0 - weights.x);
 #endif
 #ifdef WRITES_depth
-    imageStore(depth, pixel, vec4(float(hit.depth)));
+    write_depth(vec4(float(depthHere)));
 #endif
 #ifdef WRITES_position
     dvec2 ray = centre * view.rayScaleExact + view.rayOffsetExact;
-    vec3 inView = vec3(dvec3(view.orthographic ? ray : ray * hit.depth, -hit.depth));
-    imageStore(position, pixel, vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
+    vec3 inView = vec3(dvec3(view.orthographic ? ray : ray * depthHere, -depthHere));
+    write_position(vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
-    vec3 face = vec3(s.plane / sqrt(s.area));
-    // Surfaces have two sides; a mirrored instance turns its triangles around.
-    bool fromBehind = dot(s.plane, s.corner) * double(view.orthographic ? 0.0 : 1.0) - (view.orthographic ? s.plane.z : 0.0lf) > 0.0;
-    vec3 towardsViewer = fromBehind ? -face : face;
+    // The plane's normal by the winding of the mesh; surfaces have two sides, and we see the one that faces us.
+    vec3 outward = normalize(viewNormal(s.meshFromView, vec3(s.plane / max(max(abs(s.plane.x), abs(s.plane.y)), max(abs(s.plane.z), 1e-300lf)))));
+    vec2 through = rayOf(pixel);
+    bool fromBehind = view.orthographic ? outward.z < 0.0 : dot(outward, vec3(through, -1.0)) > 0.0;
+    vec3 towardsViewer = fromBehind ? -outward : outward;
 #endif
 #ifdef WRITES_normal_geometric
-    imageStore(normal_geometric, pixel, vec4(towardsViewer, 0));
+    write_normal_geometric(vec4(encodeNormal(towardsViewer), 0, 0));
 #endif
 #ifdef WRITES_normal
-    vec3 n0 = meshNormal(corners.x);
-    vec3 smoothNormal = n0 + hit.weights.x * (meshNormal(corners.y) - n0) + hit.weights.y * (meshNormal(corners.z) - n0);
-    smoothNormal = mat3(instances[instance].viewNormalFromMesh) * smoothNormal;
-    float size = length(smoothNormal);
-    // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A hidden side shows its normals turned.
-    bool turned = fromBehind != (instances[instance].facing < 0.0);
-    imageStore(normal, pixel, vec4(size > 1e-4 ? (turned ? -smoothNormal : smoothNormal) / size : towardsViewer, 0));
+    vec3 n0 = texelFetch(normals, corners.x).xyz;
+    vec3 between = n0 + weights.x * (texelFetch(normals, corners.y).xyz - n0) + weights.y * (texelFetch(normals, corners.z).xyz - n0);
+    // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A back side shows its normals turned.
+    bool usable = dot(between, between) > 1e-8;
+    vec3 turned = viewNormal(s.meshFromView, between) * (fromBehind ? -1.0 : 1.0);
+    write_normal(vec4(encodeNormal(usable ? normalize(turned) : towardsViewer), 0, 0));
 #endif
 #ifdef WRITES_object_id
-    imageStore(object_id, pixel, uvec4(triangleObject(instance, triangle)));
+    write_object_id(uvec4(triangleObject(instance, triangle)));
 #endif
 #if defined(WRITES_material_id) || defined(WRITES_albedo)
     uint material = triangleMaterial(instance, triangle);
 #endif
 #ifdef WRITES_material_id
-    imageStore(material_id, pixel, uvec4(material + 1u));
+    write_material_id(uvec4(material + 1u));
 #endif
 #ifdef WRITES_albedo
-    vec3 color = materials[material].color.rgb;
+    Material look = materialAt(material);
 #ifdef TEXTURED
-    if (materials[material].levels > 0) {
-        vec2 uv = uvAt(corners, hit.weights);
-        vec2 uvX = uvAt(corners, intersect(s, centre + dvec2(1.0, 0.0), false).weights) - uv;
-        vec2 uvY = uvAt(corners, intersect(s, centre + dvec2(0.0, 1.0), false).weights) - uv;
-        color *= sampleTexture(materials[material], uv, uvX, uvY).rgb;
-    }
+    vec2 uv = uvAt(corners, weights);
+    // How uv changes across the pixel, on the triangle's whole plane.
+    vec2 here = uvAt(corners, hit.weights);
+    vec2 uvX = uvAt(corners, intersect(s, centre + dvec2(1.0lf, 0.0lf)).weights) - here;
+    vec2 uvY = uvAt(corners, intersect(s, centre + dvec2(0.0lf, 1.0lf)).weights) - here;
+    if (look.levels > 0) look.color *= sampleTexture(look, uv, uvX, uvY).rgb;
 #endif
-    imageStore(albedo, pixel, vec4(color, 1));
+    write_albedo(vec4(look.color, 1));
 #endif
 }

@@ -4,30 +4,30 @@
 layout(location = 0) in vec3 meshPoint;
 layout(location = 1) in uint instance;
 #ifdef WRITES_normal
-layout(location = 2) in vec3 meshNormalIn;
-out vec3 viewNormal;
+layout(location = 2) in vec3 meshNormal;
+out vec3 normalBetween;
 #endif
 #if defined(WRITES_albedo) && defined(TEXTURED)
-layout(location = 3) in vec2 meshUvIn;
-out vec2 textureUv;
+layout(location = 3) in vec2 meshUv;
+out vec2 uvBetween;
 #endif
-
-flat out uint instanceNumber;
 #if defined(WRITES_position) || defined(WRITES_normal) || defined(WRITES_normal_geometric)
 out vec3 viewPoint;
 #endif
+flat out uint instanceNumber;
 
 void main() {
-    vec3 point = vec3(instances[instance].viewFromMesh * dvec4(meshPoint, 1.0));
+    vec3 point = viewFromMesh(instance, meshPoint);
     gl_Position = view.clipFromView * vec4(point, 1.0);
     instanceNumber = instance;
 #if defined(WRITES_position) || defined(WRITES_normal) || defined(WRITES_normal_geometric)
     viewPoint = point;
 #endif
 #ifdef WRITES_normal
-    viewNormal = mat3(instances[instance].viewNormalFromMesh) * meshNormalIn;
+    normalBetween = viewNormal(meshFromViewAt(instance), meshNormal);
+    normalBetween /= max(length(normalBetween), 1e-30);
 #endif
 #if defined(WRITES_albedo) && defined(TEXTURED)
-    textureUv = meshUvIn;
+    uvBetween = meshUv;
 #endif
 }

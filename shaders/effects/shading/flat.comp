@@ -2,11 +2,11 @@
 #include "lib/space.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     vec4 color = texelFetch(albedo, pixel, 0);
 #ifdef WITH_AO
     color.rgb *= mix(1.0, texelFetch(ambientOcclusion, pixel, 0).r, params.aoStrength);
 #endif
-    imageStore(result, pixel, color);
+    write_result(color);
 }

@@ -22,7 +22,7 @@ float slope(ivec2 pixel, ivec2 axis, float here) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     vec4 color = texelFetch(albedo, pixel, 0);
     float intensity = intensityAt(pixel);
@@ -30,7 +30,7 @@ void main() {
     float width = params.edgeSoftness <= 0.0 ? 0.0 : params.edgeSoftness * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
 
     vec3 level = params.bands[0].rgb;
-    for (int i = 1; i < params.count; ++i) {
+    for (int i = 1; i < BAND_COUNT; ++i) {
         float beyond = intensity + BAND_BIAS - params.bands[i].a;
         float reached = width > 1e-6 ? clamp(beyond / width + 0.5, 0.0, 1.0) : (beyond >= 0.0 ? 1.0 : 0.0);
         level += (params.bands[i].rgb - params.bands[i - 1].rgb) * reached;
@@ -43,5 +43,5 @@ void main() {
 #else
     color.rgb *= level;
 #endif
-    imageStore(result, pixel, color);
+    write_result(color);
 }

@@ -3,22 +3,24 @@
 // Writes it in the red channel; with coloured lights the colour of the light, scaled to a largest channel of 1, in rgb and the intensity
 // in alpha.
 #include "frame/scene.glsl"
+#include "frame/lights.glsl"
 #include "lib/space.glsl"
+#include "lib/normals.glsl"
 #ifdef WITH_SHADOWS
 #include "lib/shadow.glsl"
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     float z = texelFetch(depth, pixel, 0).r;
     if (isBackground(z)) {
-        imageStore(result, pixel, vec4(0));
+        write_result(vec4(0));
         return;
     }
     vec3 position = viewPosition(pixel, z);
-    vec3 n = texelFetch(normal, pixel, 0).xyz;
-    Material material = materials[texelFetch(materialId, pixel, 0).r - 1u];
+    vec3 n = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    Material material = materialAt(texelFetch(materialId, pixel, 0).r - 1u);
     vec3 eye = params.trueViewDirection ? towardsEye(position) : vec3(0, 0, 1);
 
     vec3 diffuse = vec3(0), highlight = vec3(0);
@@ -36,7 +38,7 @@ void main() {
         }
         float facing = dot(n, towards);
 #ifdef WITH_SHADOWS
-        if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, texelFetch(normalGeometric, pixel, 0).xyz, towards);
+        if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(texelFetch(normalGeometric, pixel, 0).xy), towards);
 #endif
         diffuse += lights[i].color.rgb * (strength * max(facing, 0.0));
         if (material.shininess > 1.0 && facing > 0.0) {
@@ -54,8 +56,8 @@ void main() {
     vec3 light = (diffuse + params.ambient) * open + params.extraAmbient + highlight;
 #ifdef COLORED_LIGHT
     float intensity = max(light.r, max(light.g, light.b));
-    imageStore(result, pixel, vec4(intensity > 0.0 ? light / intensity : vec3(1), intensity));
+    write_result(vec4(intensity > 0.0 ? light / intensity : vec3(1), intensity));
 #else
-    imageStore(result, pixel, vec4(light.r));
+    write_result(vec4(light.r));
 #endif
 }

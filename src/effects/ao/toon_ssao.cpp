@@ -57,7 +57,6 @@ constexpr Field kParams[] = {
 
 struct Constants {
     std::array<glm::vec4, kMaxPoints> kernelPoints{};
-    int count = 0;
     float radius = 0, radiusPixels = 0;
     int deadZone = 0;
     float strength = 1;
@@ -65,7 +64,6 @@ struct Constants {
 
 constexpr Field kConstants[] = {
     field<&Constants::kernelPoints>("kernelPoints", {.doc = "Points in the unit ball, in xyz."}),
-    field<&Constants::count>("count", {.doc = "Number of points."}),
     field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Reach in the scene."}),
     field<&Constants::radiusPixels>("radiusPixels", {.unit = "fine pixels", .doc = "Reach in the picture, for radius_in = \"image\"."}),
     field<&Constants::deadZone>("deadZone", {.doc = "Counts below this are no occlusion."}),
@@ -75,7 +73,6 @@ constexpr Field kConstants[] = {
 /// Directions on a Fibonacci spiral and lengths in an order unrelated to it, so that the few points fill the ball evenly.
 Constants derive(const Params& params, const View& view) {
     Constants c;
-    c.count = params.points;
     c.radius = static_cast<float>(view.normalized(params.radius));
     c.radiusPixels = params.imageRadius * static_cast<float>(view.fineSize().x);
     c.deadZone = params.deadZone;
@@ -103,6 +100,7 @@ void build(EffectBuilder& graph, const Params& params) {
     define(params.radiusIn == RadiusIn::image, "RADIUS_IN_IMAGE");
     define(params.rangeCheck, "RANGE_CHECK");
     define(params.mapping == CountMapping::quadratic, "QUADRATIC");
+    pass.defines.emplace_back("POINT_COUNT", std::to_string(params.points));
     pass.note = std::to_string(params.points) + " points per pixel";
     graph.add(std::move(pass));
     graph.publish(aov::ambientOcclusionRaw, result);

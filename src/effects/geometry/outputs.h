@@ -16,8 +16,9 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
     std::vector<Write> writes;
     for (const auto& [aov, needs] : outputs) {
         const ResourceId image = graph.image(*aov);
-        const float clear = aov == &aov::depth ? kBackgroundDepth : 0.0f;
-        writes.push_back({std::string(aov->name), image, needs, glm::vec4(clear)});
+        // Directions: NO_NORMAL of shaders/lib/normals.glsl.
+        const glm::vec4 clear = aov == &aov::depth ? glm::vec4(kBackgroundDepth) : aov->isDirection ? glm::vec4(2, 0, 0, 0) : glm::vec4(0);
+        writes.push_back({std::string(aov->name), image, needs, clear});
         graph.publish(*aov, image);
     }
     return writes;

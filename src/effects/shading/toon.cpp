@@ -67,7 +67,6 @@ struct BandConstants {
 };
 constexpr Field kBandConstants[] = {
     field<&BandConstants::bands>("bands", {.doc = "rgb: factor on the object's colour; a: intensity at which the band begins."}),
-    field<&BandConstants::count>("count", {.doc = "Number of bands."}),
     field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "fine pixels", .doc = "Width of the transition between bands."}),
 };
 
@@ -127,6 +126,7 @@ void build(EffectBuilder& graph, const Params& params) {
     bands.writes = {{"result", result}};
     const BandConstants constants = deriveBands(params);
     bands.params = paramsBlock(kBandConstants, constants);
+    bands.defines.emplace_back("BAND_COUNT", std::to_string(constants.count));
     bands.note = std::to_string(params.ramp.empty() ? params.bands : constants.count) + " bands";
     graph.add(std::move(bands));
     graph.publish(aov::shade, result);

@@ -1,0 +1,3 @@
+// One triangle that covers everything, for devices that run screen passes in the raster pipeline.
+
+void main() { gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0); }
