@@ -23,18 +23,18 @@ float shadowOf(Light light, vec3 position, vec3 normal, vec3 towardsLight) {
     vec2 at = (ndc.xy * 0.5 + 0.5) * side;
     if (any(lessThan(at, vec2(0))) || any(greaterThanEqual(at, vec2(side))) || ndc.z <= 0.0) return 1.0;
 
-    // A tent of the wanted width over the texels around.
+    // A tent of the wanted width, over the texels whose centres lie under it.
     float width = max(light.shadow.y, 0.5) + 0.5;
-    int radius = int(ceil(width));
-    ivec2 centre = ivec2(floor(at));
+    ivec2 first = ivec2(ceil(at - width - 0.5));
+    int count = int(ceil(2.0 * width));
     float lit = 0.0, total = 0.0;
-    for (int y = -radius; y <= radius; ++y)
-        for (int x = -radius; x <= radius; ++x) {
-            ivec2 texelAt = clamp(centre + ivec2(x, y), ivec2(0), ivec2(side) - 1);
-            vec2 distance = abs(vec2(centre + ivec2(x, y)) + 0.5 - at);
+    for (int y = 0; y < count; ++y)
+        for (int x = 0; x < count; ++x) {
+            ivec2 texelAt = first + ivec2(x, y);
+            vec2 distance = abs(vec2(texelAt) + 0.5 - at);
             float weight = max(0.0, width - distance.x) * max(0.0, width - distance.y);
-            float stored = texelFetch(shadowMaps, ivec2(light.shadowPlace[face].xy) + texelAt, 0).r;
-            lit += stored > ndc.z ? 0.0 : weight;
+            ivec2 inside = clamp(texelAt, ivec2(0), ivec2(side) - 1);
+            lit += texelFetch(shadowMaps, ivec2(light.shadowPlace[face].xy) + inside, 0).r > ndc.z ? 0.0 : weight;
             total += weight;
         }
     return total > 0.0 ? lit / total : 1.0;

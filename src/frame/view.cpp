@@ -162,12 +162,21 @@ Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize) {
     const glm::dvec3 towards = glm::normalize(0.8 * right + 0.55 * up + side);
     const Bounds& box = scene.bounds;
     camera.lookAt = box.empty() ? glm::dvec3(0) : box.centre();
-    const double radius = box.empty() || box.diagonal() == 0 ? 1 : box.diagonal() / 2;
-    const double halfWidth = camera.sensorWidth / camera.focalLength / 2;
-    const double halfHeight = halfWidth * imageSize.y / imageSize.x;
-    // The sphere around everything just fits the narrower side, with a margin of 5 %.
-    const double half = std::atan(std::min(halfWidth, halfHeight));
-    camera.position = camera.lookAt + towards * (1.05 * radius / std::sin(half));
+    if (box.empty() || box.diagonal() == 0) {
+        camera.position = camera.lookAt + towards * 2.0;
+        return camera;
+    }
+    // As close as every corner of the box allows, with a margin of 6 %.
+    camera.position = camera.lookAt + towards;
+    const glm::dmat3 toView = glm::transpose(cameraBasis(camera, up));
+    const double halfWidth = camera.sensorWidth / camera.focalLength / 2, halfHeight = halfWidth * imageSize.y / imageSize.x;
+    double distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z);
+        const glm::dvec3 q = toView * (p - camera.lookAt);
+        distance = std::max({distance, q.z + 1.06 * std::abs(q.x) / halfWidth, q.z + 1.06 * std::abs(q.y) / halfHeight});
+    }
+    camera.position = camera.lookAt + towards * distance;
     return camera;
 }
 

@@ -60,7 +60,7 @@ public:
         config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
         if (!header.scene.empty()) {
-            config_.scene = config_.file.parent_path() / header.scene;
+            config_.scene = (config_.file.parent_path() / header.scene).lexically_normal();
             if (!std::filesystem::exists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the config", ExitCode::missingInput);
         }
         if (!header.frames.empty() && !(config_.frames = parseFrames(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
@@ -120,7 +120,7 @@ private:
             readFields(*node, kOutput, &config_.output.encode, nullptr, "[output]", errors_, alsoKnown);
             if (config_.output.encode.bits != 8 && config_.output.encode.bits != 16) fail(*node->find("bits"), "'bits' in [output] must be 8 or 16", "");
             if (path && !path->text()) fail(*path, "'path' in [output] must be text", "");
-            else if (path) config_.output.path = config_.file.parent_path() / *path->text();
+            else if (path) config_.output.path = (config_.file.parent_path() / *path->text()).lexically_normal();
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
         if (!overrides_.output.empty()) config_.output.path = overrides_.output;

@@ -144,7 +144,7 @@ private:
 
     std::string resolveFile(const Node& node, std::string_view key, const std::string& file) {
         if (file.empty()) return file;
-        const auto path = folder_ / file;
+        const auto path = (folder_ / file).lexically_normal();
         if (!std::filesystem::exists(path))
             fail(node.find(key) ? *node.find(key) : node, fmt::format("'{}' does not exist", path.string()), "paths are relative to the scene file", ExitCode::missingInput);
         return path.string();
