@@ -97,11 +97,11 @@ cloth.grid(points, "cloth", [[(i / columns * 2.8, j / rows * 2.0) for i in range
 scene.mesh("cloth", cloth)
 scene.place("cloth", (0, 0, 0.03), 4)
 
-scene.mesh("wall", box(4.2, 1.9, 0.1, "wall", 0.01, 1))
+scene.mesh("wall", box(3.0, 1.7, 0.1, "wall", 0.01, 1))
 scene.place("wall", (0, -0.75, -0.75))
 rail = Mesh()
 profile = [(0, 0), (0.012, 0), (0.02, 0.008), (0.02, 0.02), (0.014, 0.03), (0.014, 0.042), (0.006, 0.05), (0, 0.052)]
-rail.grid([[(x, y, z) for x in (-2.1, 2.1)] for z, y in profile], "rail")
+rail.grid([[(x, y, z) for x in (-1.5, 1.5)] for z, y in profile], "rail")
 scene.mesh("rail", rail)
 scene.place("rail", (0, 0.30, -0.70))
 

@@ -10,12 +10,14 @@ float shadowOf(Light light, vec3 position, vec3 normal, vec3 towardsLight) {
     vec3 lifted = position + normal * texel * (0.4 + slope) * reach;
 
     int face = 0;
+#ifdef POINT_SHADOWS
     if (light.direction.w == 1.0) {
         // Faces are aligned with the world's axes.
         vec3 d = mat3(view.worldFromView) * (lifted - light.position.xyz);
         vec3 a = abs(d);
         face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1) : a.y >= a.z ? (d.y > 0.0 ? 2 : 3) : (d.z > 0.0 ? 4 : 5);
     }
+#endif
     vec4 clip = light.shadowFromView[face] * vec4(lifted, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec3 ndc = clip.xyz / clip.w;

@@ -23,7 +23,7 @@ namespace {
 struct Options {
     std::vector<std::string> configs;
     ConfigOverrides overrides;
-    std::string frames, crop, stats;
+    std::string output, frames, crop, stats;
     int threads = 0;
     bool strict = false, keepGoing = false;
     DeviceFlags device;
@@ -138,7 +138,7 @@ ExitCode run(const Options& options) {
     for (const auto& path : options.configs) {
         try {
             Job job{readRenderConfig(path, options.overrides), {}, {}, {}};
-            job.output = outputPath(job.config, options.overrides.output, options.configs.size() > 1);
+            job.output = outputPath(job.config, options.output, options.configs.size() > 1);
             if (!options.crop.empty()) static_cast<void>(parseCrop(options.crop, job.config.image.size));
             jobs.push_back(std::move(job));
         } catch (const Error& error) {
@@ -237,7 +237,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
     auto* command = app.add_subcommand("render", "Draw configs (or OBJ files) into pictures");
     command->add_option("CONFIG", options->configs, "Config files, or OBJ files to draw in the quickstart's style")->required();
     command->add_option("--frames", options->frames, "Frames: 12, 1-100, 1-100x2, 1,5,9-12; without it all that the scene declares")->type_name("SPEC");
-    command->add_option("--output", options->overrides.output, "Where to: a file, a folder, or a pattern with {config} and #### for the frame")->type_name("PATTERN");
+    command->add_option("--output", options->output, "Where to: a file, a folder, or a pattern with {config} and #### for the frame")->type_name("PATTERN");
     command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4, edges.0.width=2px")->type_name("KEY=VALUE")->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
     command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")->type_name("X,Y,W,H");

@@ -123,10 +123,9 @@ private:
             else if (path) config_.output.path = (config_.file.parent_path() / *path->text()).lexically_normal();
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
-        if (!overrides_.output.empty()) config_.output.path = overrides_.output;
         // Without a word about where to: beside the working directory, under the config's name.
         if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
-        if (overrides_.output.empty() && !fileFormat(config_.output.path))
+        if (!fileFormat(config_.output.path))
             fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()), "end the path in .png, .jpg, .tif or .exr");
     }
 

@@ -56,7 +56,6 @@ std::vector<ConfigSection> configSections();
 struct ConfigOverrides {
     std::vector<std::string> settings;       ///< KEY=VALUE
     std::string camera;
-    std::string output;
 };
 
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).

@@ -107,6 +107,8 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.reads.push_back({"shadowMaps", *shadows});
         pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
         pass.defines.emplace_back("WITH_SHADOWS", "");
+        const auto& lights = graph.scene().lights;
+        if (std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.shadow.present && l.kind == LightKind::point; })) pass.defines.emplace_back("POINT_SHADOWS", "");
     }
     if (colored) pass.defines.emplace_back("COLORED_LIGHT", "");
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(graph.scene().lights.size()));
