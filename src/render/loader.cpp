@@ -8,8 +8,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
-#include <set>
 
 namespace limn {
 namespace {
@@ -68,6 +68,17 @@ private:
 
 }  // namespace
 
+void finishLoading(LoadedScene& loaded) {
+    static std::atomic<std::uint64_t> count = 0;
+    loaded.number = ++count;
+    loaded.bounds = {};
+    const double first = loaded.scene.firstFrame();
+    for (const auto& instance : loaded.scene.instances) {
+        const Instance placed = instance.at(first);
+        loaded.bounds.add(instanceBounds(loaded.meshes[meshIndex(loaded.scene, placed.mesh)].poly, placed.transform()));
+    }
+}
+
 LoadedScene loadScene(const std::filesystem::path& path) {
     LoadedScene loaded;
     std::vector<std::filesystem::path> files;
@@ -108,6 +119,7 @@ LoadedScene loadScene(const std::filesystem::path& path) {
     for (const auto& file : files) hash.add(readFile(file));
     for (const auto value : hashes) hash.add(&value, sizeof value);
     loaded.hash = hash.hex();
+    finishLoading(loaded);
     for (std::size_t i = 0; i < meshes.size(); ++i)
         for (const auto& warning : loaded.meshes[i].warnings)
             log::warning("{}{}: {}{}", meshes[i].file, warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
@@ -118,9 +130,9 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
     const Scene& scene = loaded.scene;
     DrawScene draw;
     draw.info.up = scene.upVector();
+    draw.info.bounds = loaded.bounds;
     MaterialTable materials(loaded, frame);
     std::uint32_t nextObject = 1;
-    const double firstFrame = scene.firstFrame();
     for (const auto& keyed : scene.instances) {
         const Instance instance = keyed.at(frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
@@ -128,7 +140,6 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
         DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
         nextObject += static_cast<std::uint32_t>(poly.partNames.size());
-        draw.info.bounds.add(instanceBounds(poly, keyed.moves() ? keyed.at(firstFrame).transform() : placed.worldFromMesh));
         draw.instances.push_back(std::move(placed));
     }
     draw.materials = std::move(materials.materials);

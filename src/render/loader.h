@@ -17,8 +17,13 @@ struct LoadedMesh {
 struct LoadedScene {
     Scene scene;
     std::vector<LoadedMesh> meshes;         ///< beside Scene::meshes; empty where no instance draws the mesh
+    Bounds bounds;                          ///< of the drawn instances at the first declared frame
     std::string hash;                       ///< of every file that went in
+    std::uint64_t number = 0;               ///< tells one loaded scene from another within the process
 };
+
+/// What loadScene does once the meshes are there: bounds, hash, number. For scenes that do not come from files.
+void finishLoading(LoadedScene& loaded);
 
 /// Reads the scene that a config names and every mesh that is drawn, in parallel. All problems at once (Errors).
 LoadedScene loadScene(const std::filesystem::path& path);

@@ -177,6 +177,23 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
 
 Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder) : device_(device), shaders_(shaderFolder), executor_(device_, shaders_) {}
 
+GpuScene& Renderer::sceneOnGpu(const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times) {
+    const auto& materials = loaded.scene.materials;
+    const bool changes = std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
+    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && !changes) return *gpuScene_;
+    Stopwatch watch(times);
+    std::vector<TriMesh> meshes(loaded.meshes.size());
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
+        if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs)});
+    });
+    watch.lap("of which triangles");
+    gpuScene_ = nullptr;   // gives the old one's memory back first
+    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, needs, device_.limits());
+    watch.lap("of which upload");
+    gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs;
+    return *gpuScene_;
+}
+
 RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options) {
     RenderedFrame result;
     Stopwatch watch(result.times);
@@ -191,14 +208,8 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     watch.lap("plan");
 
     const SceneData needs = neededData(plans.averaged.plan, plans.centre);
-    std::vector<TriMesh> meshes(loaded.meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
-        if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs)});
-    });
-    watch.lap("triangles");
-    GpuScene gpu(scene, meshes, needs, device_.limits());
-    meshes.clear();
-    watch.lap("upload");
+    GpuScene& gpu = sceneOnGpu(loaded, scene, needs, result.times);
+    watch.lap("scene to the GPU");
     executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
     watch.lap("programs");
 

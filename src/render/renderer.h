@@ -49,12 +49,16 @@ public:
     const gl::Device& device() const { return device_; }
 
 private:
-    struct SceneCache;
+    /// The scene on the GPU: kept while frames differ only in what setView brings (cameras, transforms, lights).
+    GpuScene& sceneOnGpu(const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
 
     gl::Device device_;
     ShaderLibrary shaders_;
     Executor executor_;
     std::vector<double> passMilliseconds_;
+    std::unique_ptr<GpuScene> gpuScene_;
+    std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
+    SceneData gpuSceneData_ = SceneData::none;
 };
 
 /// Writes a frame: the beauty, or everything, at `path`; AOVs that the format cannot hold go beside it as NAME.AOV.EXT (depth and other
