@@ -2,7 +2,8 @@
 //
 // An effect is two files of one stem: src/effects/<slot>/<name>.cpp and shaders/effects/<slot>/<name>.comp. The .cpp ends with
 //     const Technique kName{"slot", "name", "what it is", kParams, build};
-// and nothing else knows that it exists.
+// and nothing else knows that it exists. Its code lives in a namespace of its own, limn::<slot>_<name>, not in an anonymous one: g++ 12
+// merges the accessors of members of one name in anonymous structs of one name, across files.
 #pragma once
 
 #include "base/params.h"

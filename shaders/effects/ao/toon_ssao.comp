@@ -10,15 +10,13 @@ const float DEPTH_SLACK = 1e-5;
 
 #ifdef POINT_DEPTH
 // Depth at which the ray of `tap` passes `height` above the plane through `position` with `normal`: where the kernel point would be if it
-// lay on the centre of the pixel it falls on. Rays that miss that plane keep the point's own depth.
-float depthAtHeight(ivec2 tap, vec3 position, vec3 normal, float height, float otherwise) {
+// lay on the centre of the pixel it falls on. 0 where the ray never gets there: such a point hides behind nothing.
+float depthAtHeight(ivec2 tap, vec3 position, vec3 normal, float height) {
     vec2 ray = rayOf(tap);
-    if (view.orthographic) {
-        return normal.z > 1e-6 ? (dot(normal.xy, ray - position.xy) - normal.z * position.z - height) / normal.z : otherwise;
-    }
+    float level = dot(normal, position) + height;
+    if (view.orthographic) return abs(normal.z) > 1e-6 ? (dot(normal.xy, ray) - level) / normal.z : 0.0;
     float slope = dot(normal, vec3(ray, -1.0));
-    float t = (dot(normal, position) + height) / slope;
-    return slope < -1e-6 && t > 0.0 ? t : otherwise;
+    return abs(slope) > 1e-6 ? max(level / slope, 0.0) : 0.0;
 }
 #endif
 
@@ -63,7 +61,7 @@ void main() {
         if (tap == pixel) continue;
         float there = texelFetch(depth, tap, 0).r;
 #if defined(POINT_DEPTH) && !defined(RADIUS_IN_IMAGE)
-        float compared = depthAtHeight(tap, position, surface, dot(point - position, surface), -point.z);
+        float compared = depthAtHeight(tap, position, surface, dot(point - position, surface));
 #else
         float compared = centre;
 #endif

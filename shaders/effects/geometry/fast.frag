@@ -18,8 +18,8 @@ void main() {
     uint triangle = uint(gl_PrimitiveID);
     Instance instance = instanceAt(instanceNumber);
 #ifdef WRITES_depth
-    // The reversed depth that the rasterizer found: perspective depth is near / z, orthographic depth falls linearly from near to far.
-    depth = view.orthographic ? view.far - gl_FragCoord.z * (view.far - view.near) : view.near / max(gl_FragCoord.z, 1e-37);
+    // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
+    depth = view.orthographic ? view.far - gl_FragCoord.z * (view.far - view.near) : 1.0 / gl_FragCoord.w;
 #endif
 #ifdef WRITES_position
     position = vec4((view.worldFromView * vec4(viewPoint, 1.0)).xyz, 0);

@@ -25,7 +25,7 @@ enum class CountMapping { linear, quadratic };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<CountMapping> = {"linear", "quadratic"};
 
-namespace {
+namespace ao_toon_ssao {
 
 constexpr int kMaxPoints = 64;
 
@@ -111,5 +111,5 @@ const Technique kToonSsao{"ao", "toon_ssao", "A few fixed points around each pix
                           {{"paper", "As published: a flat disk of points, no range check, counts below 5 of 8 ignored, squared.",
                             "points = 8, radius_in = 'image', image_radius = 0.03125, kernel = 'sphere', sample_depth = 'pixel', range_check = false, dead_zone = 5, mapping = 'quadratic'"}}};
 
-}  // namespace
+}  // namespace ao_toon_ssao
 }  // namespace limn

@@ -3,7 +3,7 @@
 #include "effects/technique.h"
 
 namespace limn {
-namespace {
+namespace composite_over {
 
 struct Params {
     Color background{1, 1, 1};
@@ -39,5 +39,5 @@ void build(EffectBuilder& graph, const Params& params) {
 
 const Technique kOver{"composite", "over", "Lines over objects over the background.", kParams, build};
 
-}  // namespace
+}  // namespace composite_over
 }  // namespace limn

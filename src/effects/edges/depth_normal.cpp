@@ -16,7 +16,7 @@ enum class DepthTest { plane, projected };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<DepthTest> = {"plane", "projected"};
 
-namespace {
+namespace edges_depth_normal {
 
 struct Params {
     PictureLength width = PictureLength::pixels(2);
@@ -89,5 +89,5 @@ const Technique kDepthNormal{"edges", "depth_normal", "Lines where depth or norm
                              {{"paper", "As published: projected depth, normals more than 18 degrees apart, black lines two pixels wide.",
                                "width = '2px', color = '#000000', crease_angle = 18.1949, depth_test = 'projected', depth_threshold = 0.05"}}};
 
-}  // namespace
+}  // namespace edges_depth_normal
 }  // namespace limn

@@ -5,7 +5,7 @@
 #include "effects/technique.h"
 
 namespace limn {
-namespace {
+namespace filter_gaussian {
 
 struct Params {
     int iterations = 3;
@@ -31,5 +31,5 @@ void build(EffectBuilder& graph, const Params& params) {
 
 const Technique kGaussian{"filter", "gaussian", "A 3×3 Gaussian, several times over (Lajzer & Nottingham).", kParams, build, {{"paper", "As published: the default.", ""}}};
 
-}  // namespace
+}  // namespace filter_gaussian
 }  // namespace limn

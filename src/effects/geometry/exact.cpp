@@ -6,7 +6,7 @@
 #include "effects/geometry/outputs.h"
 
 namespace limn {
-namespace {
+namespace geometry_exact {
 
 void build(EffectBuilder& graph, const NoParams&) {
     const ResourceId visibility = graph.image("visibility", Format::rg32ui);
@@ -31,5 +31,5 @@ void build(EffectBuilder& graph, const NoParams&) {
 
 const Technique kExact{"geometry", "exact", "Triangle ids at raster time, then exact evaluation of just what is read, once per visible pixel.", {}, build};
 
-}  // namespace
+}  // namespace geometry_exact
 }  // namespace limn

@@ -6,7 +6,7 @@
 #include "effects/geometry/outputs.h"
 
 namespace limn {
-namespace {
+namespace geometry_fast {
 
 void build(EffectBuilder& graph, const NoParams&) {
     Pass raster;
@@ -22,5 +22,5 @@ void build(EffectBuilder& graph, const NoParams&) {
 
 const Technique kFast{"geometry", "fast", "Attributes interpolated by the hardware: the classic G-buffer.", {}, build};
 
-}  // namespace
+}  // namespace geometry_fast
 }  // namespace limn

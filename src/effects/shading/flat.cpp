@@ -3,7 +3,7 @@
 #include "effects/technique.h"
 
 namespace limn {
-namespace {
+namespace shading_flat {
 
 struct Params {
     float aoStrength = 1;
@@ -37,5 +37,5 @@ void build(EffectBuilder& graph, const Params& params) {
 
 const Technique kFlat{"shading", "flat", "The objects' own colours, without lights; ambient occlusion multiplies.", kParams, build};
 
-}  // namespace
+}  // namespace shading_flat
 }  // namespace limn

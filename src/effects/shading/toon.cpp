@@ -18,7 +18,7 @@ enum class ToonSpace { perceptual, display };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<ToonSpace> = {"perceptual", "display"};
 
-namespace {
+namespace shading_toon {
 
 constexpr int kMaxBands = 16;
 
@@ -138,5 +138,5 @@ const Technique kToon{"shading", "toon", "Light in a few flat steps, with highli
                       {{"paper", "As published: floor(4·I)/4 of display-encoded colour, hard steps, highlights as if seen from far away.",
                         "bands = 4, ambient = 0.1, extra_ambient = 0.2, edge_softness = 0, true_view_direction = false, space = 'display'"}}};
 
-}  // namespace
+}  // namespace shading_toon
 }  // namespace limn

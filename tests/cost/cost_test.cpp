@@ -1,0 +1,156 @@
+// What nothing asks for costs nothing: counted at the GL entry points, not from our own bookkeeping.
+
+#include "support/bench.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace limn::test {
+namespace {
+
+/// What was asked of GL.
+struct Counts {
+    int draws = 0, dispatches = 0, programs = 0, textures = 0, framebuffers = 0;
+    std::uint64_t textureBytes = 0, bufferBytes = 0;
+    bool operator==(const Counts&) const = default;
+};
+Counts counts;
+
+decltype(epoxy_glDrawArrays) realDrawArrays;
+decltype(epoxy_glMultiDrawElementsIndirect) realMultiDraw;
+decltype(epoxy_glDispatchCompute) realDispatch;
+decltype(epoxy_glTextureStorage2D) realTextureStorage;
+decltype(epoxy_glNamedBufferStorage) realBufferStorage;
+decltype(epoxy_glUseProgram) realUseProgram;
+decltype(epoxy_glCreateFramebuffers) realCreateFramebuffers;
+
+std::uint64_t bytesOf(GLenum format) {
+    switch (format) {
+        case GL_RG32UI:
+        case GL_RG32F:
+        case GL_RGBA16F: return 8;
+        case GL_RGBA32F: return 16;
+        default: return 4;
+    }
+}
+
+/// Counts while it lives.
+class Counting {
+public:
+    Counting() {
+        counts = {};
+        realDrawArrays = epoxy_glDrawArrays;
+        epoxy_glDrawArrays = [](GLenum mode, GLint first, GLsizei count) { ++counts.draws; realDrawArrays(mode, first, count); };
+        realMultiDraw = epoxy_glMultiDrawElementsIndirect;
+        epoxy_glMultiDrawElementsIndirect = [](GLenum mode, GLenum type, const void* indirect, GLsizei count, GLsizei stride) { ++counts.draws; realMultiDraw(mode, type, indirect, count, stride); };
+        realDispatch = epoxy_glDispatchCompute;
+        epoxy_glDispatchCompute = [](GLuint x, GLuint y, GLuint z) { ++counts.dispatches; realDispatch(x, y, z); };
+        realTextureStorage = epoxy_glTextureStorage2D;
+        epoxy_glTextureStorage2D = [](GLuint id, GLsizei levels, GLenum format, GLsizei w, GLsizei h) {
+            ++counts.textures;
+            counts.textureBytes += bytesOf(format) * static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
+            realTextureStorage(id, levels, format, w, h);
+        };
+        realBufferStorage = epoxy_glNamedBufferStorage;
+        epoxy_glNamedBufferStorage = [](GLuint id, GLsizeiptr size, const void* data, GLbitfield flags) { counts.bufferBytes += static_cast<std::uint64_t>(size); realBufferStorage(id, size, data, flags); };
+        realUseProgram = epoxy_glUseProgram;
+        epoxy_glUseProgram = [](GLuint id) { ++counts.programs; realUseProgram(id); };
+        realCreateFramebuffers = epoxy_glCreateFramebuffers;
+        epoxy_glCreateFramebuffers = [](GLsizei n, GLuint* ids) { counts.framebuffers += n; realCreateFramebuffers(n, ids); };
+    }
+    ~Counting() {
+        epoxy_glDrawArrays = realDrawArrays;
+        epoxy_glMultiDrawElementsIndirect = realMultiDraw;
+        epoxy_glDispatchCompute = realDispatch;
+        epoxy_glTextureStorage2D = realTextureStorage;
+        epoxy_glNamedBufferStorage = realBufferStorage;
+        epoxy_glUseProgram = realUseProgram;
+        epoxy_glCreateFramebuffers = realCreateFramebuffers;
+    }
+};
+
+const std::string kScene = "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\n[[light]]\ndirection = [-1, -2, -1]\n";
+const std::string kBase = "[image]\nsize = [96, 64]\nsamples = 4\n";
+
+struct Drawn {
+    Counts counts;
+    std::vector<float> beauty;
+};
+
+/// Draws once with everything, uncounted: libepoxy replaces each entry point by the driver's at its first call.
+void resolveEntryPoints() {
+    static const bool resolved = [] {
+        Renderer first{gl::DeviceOptions{}};
+        const LoadedScene loaded = makeScene(kScene + "shadow = {}\n", {{"m.obj", mixedObj()}});
+        first.render(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\n[[edges]]\ntechnique = 'depth_normal'\n"), loaded, 1, {});
+        return true;
+    }();
+    static_cast<void>(resolved);
+}
+
+Drawn run(const std::string& config, const std::string& scene = kScene) {
+    resolveEntryPoints();
+    // A renderer of its own: nothing is left over from another picture.
+    Renderer fresh{gl::DeviceOptions{}};
+    const LoadedScene loaded = makeScene(scene, {{"m.obj", mixedObj()}});
+    const RenderConfig parsed = makeConfig(kBase + config);
+    const Counting counting;
+    const RenderedFrame frame = fresh.render(parsed, loaded, 1, {});
+    return {counts, frame.layers.front().image.pixels};
+}
+
+TEST(Cost, anEffectThatNothingReadsCostsExactlyNothing) {
+    const std::string toon = "[shading]\ntechnique = 'toon'\n", flat = "[shading]\ntechnique = 'flat'\n";
+    const Drawn bareToon = run(toon), bareFlat = run(flat);
+    struct Case { const char* what; std::string config; const Drawn& bare; };
+    const Case cases[] = {
+        {"ambient occlusion of strength 0 under toon", "[shading]\ntechnique = 'toon'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\nfilter = { technique = 'gaussian' }\n", bareToon},
+        {"ambient occlusion of strength 0 under flat", "[shading]\ntechnique = 'flat'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\n", bareFlat},
+        {"lines of opacity 0", toon + "[[edges]]\ntechnique = 'depth_normal'\nopacity = 0\n", bareToon},
+    };
+    for (const auto& c : cases) {
+        const Drawn with = run(c.config);
+        EXPECT_EQ(with.counts.draws, c.bare.counts.draws) << c.what;
+        EXPECT_EQ(with.counts.dispatches, c.bare.counts.dispatches) << c.what;
+        EXPECT_EQ(with.counts.programs, c.bare.counts.programs) << c.what;
+        EXPECT_EQ(with.counts.textures, c.bare.counts.textures) << c.what;
+        EXPECT_EQ(with.counts.textureBytes, c.bare.counts.textureBytes) << c.what;
+        EXPECT_EQ(with.counts.framebuffers, c.bare.counts.framebuffers) << c.what;
+        EXPECT_EQ(with.counts.bufferBytes, c.bare.counts.bufferBytes) << c.what;
+        EXPECT_EQ(with.beauty, c.bare.beauty) << c.what << ": the picture's bits";
+    }
+}
+
+TEST(Cost, everyEffectThatIsReadIsCounted) {
+    // The test above could not fail if the counters did not count.
+    const Drawn bare = run("[shading]\ntechnique = 'toon'\n");
+    const Drawn ao = run("[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\n");
+    const Drawn edges = run("[shading]\ntechnique = 'toon'\n[[edges]]\ntechnique = 'depth_normal'\n");
+    const Drawn shadow = run("[shading]\ntechnique = 'toon'\n", kScene + "shadow = {}\n");
+    const auto passes = [](const Drawn& r) { return r.counts.draws + r.counts.dispatches; };
+    EXPECT_EQ(passes(ao), passes(bare) + 1);
+    EXPECT_EQ(passes(edges), passes(bare) + 1);
+    EXPECT_EQ(passes(shadow), passes(bare) + 1);
+    EXPECT_GT(ao.counts.textureBytes, bare.counts.textureBytes);
+    EXPECT_GE(shadow.counts.textureBytes, bare.counts.textureBytes + 2048u * 2048 * 4);
+    EXPECT_NE(ao.beauty, bare.beauty);
+    EXPECT_NE(shadow.beauty, bare.beauty);
+}
+
+TEST(Cost, attributesThatNobodyReadsAreNotUploaded) {
+    // Flat colours need neither normals nor lights; depth alone needs no materials.
+    const Drawn toon = run("[shading]\ntechnique = 'toon'\n"), flat = run("[shading]\ntechnique = 'flat'\n"), depth = run("[output]\naovs = ['depth']\n");
+    EXPECT_GT(toon.counts.bufferBytes, flat.counts.bufferBytes);
+    EXPECT_GT(flat.counts.bufferBytes, depth.counts.bufferBytes);
+    EXPECT_EQ(depth.counts.draws + depth.counts.dispatches, 2) << "visibility and resolve, once";
+}
+
+TEST(Cost, planOfTheBarePictureNamesNoEffect) {
+    const LoadedScene loaded = makeScene(kScene, {{"m.obj", mixedObj()}});
+    const ExplainedPlan plan = planConfig(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n"), loaded, 1);
+    for (const auto& pass : plan.frame.graph.passes) EXPECT_TRUE(pass.slot != "ao" && pass.slot != "filter" && pass.slot != "edges" && pass.slot != "shadow") << pass.name;
+}
+
+}  // namespace
+}  // namespace limn::test
