@@ -98,23 +98,24 @@ constexpr glm::dvec3 kCubeFaces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 
 
 /// Clip space of the light's map from normalized view space.
 std::vector<glm::dmat4> shadowMatrices(const Light& light, const SceneInfo& scene, const View& view) {
-    const glm::dmat4 worldFromView = view.worldFromView;
+    // World directions and lengths, counted from the eye.
+    const glm::dmat4 relativeFromView(glm::transpose(view.viewFromRelative) / (view.unit * view.unit));
     if (light.kind == LightKind::sun) {
         // A sphere around the scene keeps the map's texels still while the camera moves.
         const double radius = scene.diagonal() / 2;
         const glm::dvec3 forward = glm::normalize(light.direction);
-        const glm::dmat4 lightView = lookAlong(scene.bounds.centre() - forward * radius * 2.0, forward);
+        const glm::dmat4 lightView = lookAlong(scene.bounds.centre() - view.eye - forward * radius * 2.0, forward);
         glm::dmat4 clip(1);
         clip[0][0] = clip[1][1] = 1 / radius;
         // Depths radius … 3·radius → 1 … 0.
         clip[2][2] = 1 / (2 * radius);
         clip[3][2] = 1.5;
-        return {clip * lightView * worldFromView};
+        return {clip * lightView * relativeFromView};
     }
     const double near = scene.diagonal() * 1e-4;
-    if (light.kind == LightKind::spot) return {lightPerspective(glm::radians(light.angle), near) * lookAlong(light.position, glm::normalize(light.direction)) * worldFromView};
+    if (light.kind == LightKind::spot) return {lightPerspective(glm::radians(light.angle), near) * lookAlong(light.position - view.eye, glm::normalize(light.direction)) * relativeFromView};
     std::vector<glm::dmat4> faces;
-    for (const auto& forward : kCubeFaces) faces.push_back(lightPerspective(glm::radians(90.0), near) * lookAlong(light.position, forward) * worldFromView);
+    for (const auto& forward : kCubeFaces) faces.push_back(lightPerspective(glm::radians(90.0), near) * lookAlong(light.position - view.eye, forward) * relativeFromView);
     return faces;
 }
 
@@ -321,11 +322,10 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
         const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
-        // The pivot joins the translation in double: nothing large is left when the sum becomes small.
-        const glm::dmat4 viewFromMesh = view.viewFromWorld * instance.worldFromMesh * glm::translate(glm::dmat4(1), place.pivot);
-        const glm::dmat3 linear = invertible(glm::dmat3(viewFromMesh));
+        const glm::dmat3 linear = invertible(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
+        const glm::dvec3 pivot = view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(place.pivot, 1)));
         const glm::dmat3 inverse = glm::inverse(linear);
-        const glm::dvec3 offset = inverse * -glm::dvec3(viewFromMesh[3]);
+        const glm::dvec3 offset = inverse * -pivot;
         GpuInstance gpu{};
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 3; ++column) {
@@ -333,7 +333,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
                 gpu.viewFromMesh[row][column] = static_cast<float>(linear[column][row]);
             }
             gpu.meshFromView[row][3] = offset[row];
-            gpu.viewFromMesh[row][3] = static_cast<float>(viewFromMesh[3][row]);
+            gpu.viewFromMesh[row][3] = static_cast<float>(pivot[row]);
         }
         gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
         gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.facing = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
@@ -345,13 +345,12 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
 
 std::vector<std::byte> GpuScene::lightBytes(const DrawScene& scene, const View& view) const {
     std::vector<GpuLight> lights;
-    const glm::dmat3 rotation = glm::transpose(glm::dmat3(view.worldFromView) * view.unit);
     const ShadowLayout layout = shadowLayout(scene.lights);
     for (const auto& light : scene.lights) {
         GpuLight gpu{};
-        const glm::dvec3 towards = light.kind == LightKind::point ? glm::dvec3(0) : -glm::normalize(rotation * light.direction);
+        const glm::dvec3 towards = light.kind == LightKind::point ? glm::dvec3(0) : -glm::normalize(view.viewFromRelative * light.direction);
         gpu.direction = glm::vec4(glm::vec3(towards), static_cast<float>(light.kind));
-        gpu.position = glm::vec4(glm::vec3(view.viewFromWorld * glm::dvec4(light.position, 1)), light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
+        gpu.position = glm::vec4(glm::vec3(view.toView(light.position)), light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
         gpu.color = glm::vec4(light.color.r, light.color.g, light.color.b, 0) * static_cast<float>(light.intensity);
         const double half = glm::radians(light.angle) / 2;
         gpu.cone = {std::cos(half), std::cos(half * (1 - light.blend)), 0, 0};

@@ -103,6 +103,12 @@ glm::dmat4 View::clipFromView() const {
     return m;
 }
 
+glm::dmat4 View::worldFromView() const {
+    glm::dmat4 m(glm::transpose(viewFromRelative) / (unit * unit));
+    m[3] = glm::dvec4(eye, 1);
+    return m;
+}
+
 View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request) {
     View view;
     view.imageSize = request.imageSize;
@@ -118,13 +124,8 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
 
     const glm::dmat3 basis = cameraBasis(camera, scene.up);
     const glm::dmat3 toView = glm::transpose(basis);
-    view.viewFromWorld = glm::dmat4(toView);
-    view.viewFromWorld[3] = glm::dvec4(toView * -camera.position, 1);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row) view.viewFromWorld[column][row] *= view.unit;
-    view.worldFromView = glm::dmat4(basis);
-    for (int column = 0; column < 3; ++column) view.worldFromView[column] /= view.unit;
-    view.worldFromView[3] = glm::dvec4(camera.position, 1);
+    view.eye = camera.position;
+    view.viewFromRelative = toView * view.unit;
 
     const glm::dvec2 size(view.fineSize());
     double width;  // of the picture at unit depth, or in normalized units
@@ -142,7 +143,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     Bounds depths;
     for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
         const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x, corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
-        depths.add(glm::dvec3(0, 0, -(view.viewFromWorld * glm::dvec4(p, 1)).z));
+        depths.add(glm::dvec3(0, 0, -view.toView(p).z));
     }
     // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's size.
     const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
@@ -191,7 +192,7 @@ Light defaultSun(const Camera& camera, const SceneInfo& scene) {
 UniformBlock viewBlock(const View& view) {
     ViewConstants c{};
     c.clipFromView = glm::mat4(view.clipFromView());
-    c.worldFromView = glm::mat4(view.worldFromView);
+    c.worldFromView = glm::mat4(view.worldFromView());
     c.rayScaleExact = view.rayScale;
     c.rayOffsetExact = view.rayOffset;
     c.rayScale = view.rayScale;

@@ -46,8 +46,10 @@ struct View {
     unsigned seed = 0;
 
     bool orthographic = false;
-    glm::dmat4 viewFromWorld{1};    ///< world in scene units → view in normalized units
-    glm::dmat4 worldFromView{1};
+    glm::dvec3 eye{0};              ///< camera position, world, scene units
+    /// World directions and offsets from the eye in scene units → view space in normalized units. Subtracting the eye first, in double,
+    /// is what keeps scenes far from the origin exact: there is no matrix with a large translation in it.
+    glm::dmat3 viewFromRelative{1};
     /// Where the ray of fine pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
     /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
     glm::dvec2 rayScale{1}, rayOffset{0};
@@ -61,6 +63,8 @@ struct View {
     glm::ivec2 regionSize() const { return region.size * raster; }
     /// Clip space from view space for the whole picture: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
+    glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
+    glm::dmat4 worldFromView() const;
     /// A length of a parameter in normalized units.
     double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
     /// A width in the picture in fine pixels.

@@ -163,7 +163,8 @@ glm::dvec3 choosePivot(const PolyMesh& mesh) {
     const double size = bounds.diagonal();
     if (!(size > 0)) return bounds.centre();
     const double grid = std::ldexp(1.0, std::ilogb(size) - 8);
-    return glm::round(bounds.centre() / grid) * grid;
+    // Not round(): its halves go away from zero, which is not the same place for a moved copy.
+    return glm::floor(bounds.centre() / grid + 0.5) * grid;
 }
 
 }  // namespace

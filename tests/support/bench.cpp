@@ -94,7 +94,7 @@ std::string mixedObj(const glm::dvec3& offset, double scale) {
     box("slab", {0.5, 0.125, -1}, {2.5, 0.25, 0.5});
     box("step", {-0.5, 0, 0.5}, {0.25, 0.0625, 1.5});
     text += "o card\n" + quadObj(place({1, 0.5, -3}), place({2.5, 0.5, -3}), place({2.5, 2, -3}), place({1, 2, -3}));
-    for (int i = 0; i < 6; ++i) box("wire", {-3.5 + i * 0.25, 0, -3.25}, {-3.49 + i * 0.25, 3, -3.24});
+    for (int i = 0; i < 6; ++i) box("wire", {-3.5 + i * 0.25, 0, -3.25}, {-3.5 + 1.0 / 128 + i * 0.25, 3, -3.25 + 1.0 / 128});
     text += "o sphere\n";
     const double r = 0.75;
     std::string sphere;

@@ -5,8 +5,9 @@
 #include "lib/normals.glsl"
 #endif
 
-// A point this much behind the surface it is compared with is hidden: room for the rounding of depths (relative).
-const float DEPTH_SLACK = 1e-5;
+// A point is hidden if it lies further behind the surface than depths are rounded: eight half ulps of float (relative). More would blind
+// long lenses, whose depths are large beside the radius.
+const float DEPTH_SLACK = 5e-7;
 
 #ifdef POINT_DEPTH
 // Depth at which the ray of `tap` passes `height` above the plane through `position` with `normal`: where the kernel point would be if it
