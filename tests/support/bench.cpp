@@ -125,7 +125,7 @@ TemporaryFolder::~TemporaryFolder() {
 RunResult runLimn(const std::string& arguments, const std::filesystem::path& folder, const std::string& environment) {
     const TemporaryFolder output;
     const auto out = output.path() / "out", err = output.path() / "err";
-    const std::string command = fmt::format("cd '{}' && {} timeout 300 '{}' {} >'{}' 2>'{}' </dev/null", folder.string(), environment, LIMN_PROGRAM, arguments, out.string(), err.string());
+    const std::string command = fmt::format("cd '{}' && {} LIMN_GL_DEBUG=1 timeout 300 '{}' {} >'{}' 2>'{}' </dev/null", folder.string(), environment, LIMN_PROGRAM, arguments, out.string(), err.string());
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readFile(out), readFile(err)};
 }
