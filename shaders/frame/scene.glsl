@@ -20,13 +20,12 @@ struct Instance {
     uint firstObject;       // object_id of the mesh's first part
     uint materialWords;     // words[materialWords + triangle] = number of its material name; NO_WORDS: all 0
     uint partWords;         // words[partWords + triangle] = number of its part; NO_WORDS: all 0
-    float facing;           // -1 where the transform mirrors
 };
 
 Instance instanceAt(uint number) {
     int at = int(number) * INSTANCE_TEXELS;
     uvec4 a = texelFetch(instances, at + 9), b = texelFetch(instances, at + 10);
-    return Instance(a.x, a.y, a.z, a.w, b.x, b.y, uintBitsToFloat(b.z));
+    return Instance(a.x, a.y, a.z, a.w, b.x, b.y);
 }
 
 // Mesh units relative to the mesh's pivot → normalized view space.

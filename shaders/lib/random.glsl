@@ -28,13 +28,6 @@ vec2 evenlySpread(ivec2 pixel) {
     return vec2(unitFloat(first + mixBits(view.seed * 2u)), unitFloat(second + mixBits(view.seed * 2u + 1u)));
 }
 
-// Two independent numbers in [0, 1): white noise.
-vec2 whiteNoise(ivec2 pixel) {
-    uvec3 s = uvec3(sampleOf(pixel));
-    uint x = mixBits(s.x + mixBits(s.y + mixBits(s.z + mixBits(view.seed))));
-    return vec2(unitFloat(x), unitFloat(mixBits(x + 0x9e3779b9u)));
-}
-
 // A unit vector, uniform over the sphere, from two uniform numbers (Archimedes: heights on a sphere are uniform).
 vec3 onSphere(vec2 u) {
     float z = 1.0 - 2.0 * u.x;

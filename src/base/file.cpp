@@ -85,6 +85,11 @@ MappedFile::~MappedFile() {
     if (data_) ::munmap(const_cast<char*>(data_), size_);
 }
 
+bool fileExists(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
 std::string readFile(const std::filesystem::path& path) {
     const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (fd < 0) throw readError(path, errno);
@@ -104,9 +109,10 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
     std::error_code made;
     std::filesystem::create_directories(folder, made);
     if (made) throw writeError(folder, made.value(), "making the folder");
-    if (std::filesystem::is_directory(path)) throw writeError(path, EISDIR, "creating");
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
 
-    // The name says whose it is, so that a stale one can be recognized and swept after a kill.
+    // The name says whose it is, should a kill leave it behind.
     auto temporary = (folder / ".limn-XXXXXX").string();
     Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
     if (fd < 0) throw writeError(path, errno, "creating");

@@ -26,6 +26,9 @@ private:
     std::size_t size_ = 0;
 };
 
+/// Whether something is there. False too where it cannot be found out: opening it will tell why.
+bool fileExists(const std::filesystem::path& path);
+
 /// Throws Error when the file is missing, a folder, or cannot be read.
 std::string readFile(const std::filesystem::path& path);
 

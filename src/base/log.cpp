@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <mutex>
 
 namespace limn::log {
 namespace {
@@ -37,6 +38,9 @@ spdlog::level::level_enum toSpdlog(Level level) {
 void configure(Level lowest) { logger().set_level(toSpdlog(lowest)); }
 
 void write(Level level, std::string_view message) {
+    // Pattern and message belong together, whichever thread speaks.
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     // Information is the normal voice and needs no prefix.
     logger().set_pattern(level == Level::info ? "%v" : "%^%l%$: %v");
     logger().log(toSpdlog(level), message);

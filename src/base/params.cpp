@@ -294,15 +294,15 @@ const FieldType& fieldType<Color>() {
 template <>
 const FieldType& fieldType<Length>() {
     static constexpr FieldType type{"length", 1, readLength, lengthText,
-                                    [](const void* member, double* numbers) { numbers[0] = static_cast<const Length*>(member)->amount; },
-                                    [](void* member, const double* numbers) { static_cast<Length*>(member)->amount = numbers[0]; }, "", 0, 0, nullptr, {}};
+                                    [](const void* member, double* numbers) { numbers[0] = static_cast<const Length*>(member)->amount, numbers[1] = static_cast<const Length*>(member)->relative; },
+                                    [](void* member, const double* numbers) { *static_cast<Length*>(member) = {numbers[0], numbers[1] != 0}; }, "", 0, 0, nullptr, {}};
     return type;
 }
 template <>
 const FieldType& fieldType<PictureLength>() {
     static constexpr FieldType type{"width", 1, readPictureLength, pictureLengthText,
-                                    [](const void* member, double* numbers) { numbers[0] = static_cast<const PictureLength*>(member)->amount; },
-                                    [](void* member, const double* numbers) { static_cast<PictureLength*>(member)->amount = numbers[0]; }, "", 0, 0, nullptr, {}};
+                                    [](const void* member, double* numbers) { numbers[0] = static_cast<const PictureLength*>(member)->amount, numbers[1] = static_cast<double>(static_cast<const PictureLength*>(member)->unit); },
+                                    [](void* member, const double* numbers) { *static_cast<PictureLength*>(member) = {numbers[0], static_cast<PictureLength::Unit>(numbers[1])}; }, "", 0, 0, nullptr, {}};
     return type;
 }
 template <>
@@ -430,10 +430,13 @@ void readTrack(const Node& node, const Field& field, void* object, std::vector<T
     const Node* keys = node.find("keys");
     if (!keys || !keys->isArray() || keys->array().empty()) return fail(node, "needs a list of keys", remedy);
     for (const auto& pair : keys->array()) {
-        if (!pair.isArray() || pair.array().size() != 2 || !pair.array()[0].isNumber()) return fail(pair, "has a key that is not [frame, value]", remedy);
+        if (!pair.isArray() || pair.array().size() != 2 || !pair.array()[0].isNumber() || !std::isfinite(pair.array()[0].number())) return fail(pair, "has a key that is not [frame, value]", remedy);
         if (auto problem = field.type().read(field.member(object), pair.array()[1], field)) return fail(pair, *problem, "");
         Key key{pair.array()[0].number(), {}};
         field.type().toNumbers(field.member(object), key.value.data());
+        // The second number of a length is its unit: there is no way from 2 pixels to 5 % in between.
+        const bool hasUnit = &field.type() == &fieldType<Length>() || &field.type() == &fieldType<PictureLength>();
+        if (hasUnit && !track.keys.empty() && track.keys.front().value[1] != key.value[1]) return fail(pair, "has keys in different units", "write all of them in one unit");
         track.keys.push_back(key);
     }
     std::stable_sort(track.keys.begin(), track.keys.end(), [](const Key& a, const Key& b) { return a.frame < b.frame; });

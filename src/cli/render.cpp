@@ -90,8 +90,12 @@ std::filesystem::path outputPath(const RenderConfig& config, const std::string& 
     if (asked.empty()) return config.output.path;
     std::string text = asked;
     const std::string stem = config.file.stem().string();
-    if (const auto at = text.find("{config}"); at != std::string::npos) return text.replace(at, 8, stem);
-    if (std::filesystem::is_directory(text) || text.ends_with('/')) return std::filesystem::path(text) / config.output.path.filename();
+    if (const auto at = text.find("{config}"); at != std::string::npos) {
+        text.replace(at, 8, stem);
+        several = false;
+    }
+    std::error_code unknown;
+    if (std::filesystem::is_directory(text, unknown) || text.ends_with('/')) return std::filesystem::path(text) / config.output.path.filename();
     if (several) throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "several configs would write the same file", "put {config} into the path, or name a folder");
     if (!fileFormat(text)) throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
     return text;
@@ -132,13 +136,16 @@ ExitCode run(const Options& options) {
     gl::DeviceOptions deviceOptions = options.device.options;
     if (options.threads > 0 || std::getenv("SLURM_CPUS_ON_NODE") || std::getenv("CUE_THREADS")) deviceOptions.threads = threads;
 
-    // Everything that can be wrong with the settings comes out before anything is drawn.
+    // Everything that the configs alone can tell comes out before anything is drawn.
     ErrorCollector errors;
     std::vector<Job> jobs;
     for (const auto& path : options.configs) {
         try {
             Job job{readRenderConfig(path, options.overrides), {}, {}, {}};
             job.output = outputPath(job.config, options.output, options.configs.size() > 1);
+            for (const auto& other : jobs)
+                if (other.output.lexically_normal() == job.output.lexically_normal())
+                    throw Error(ExitCode::usage, {path}, fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()), "put {config} into --output, or give each its own output.path");
             if (!options.crop.empty()) static_cast<void>(parseCrop(options.crop, job.config.image.size));
             jobs.push_back(std::move(job));
         } catch (const Error& error) {

@@ -65,14 +65,15 @@ void merge(Node& below, Node&& above) {
 }
 
 Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem::path>& open, std::vector<std::filesystem::path>* files, const Location& from) {
-    const auto key = std::filesystem::weakly_canonical(path);
+    std::error_code unknown;
+    const auto key = std::filesystem::weakly_canonical(path, unknown);
     if (std::find(open.begin(), open.end(), key) != open.end())
         throw Error(ExitCode::usage, from, fmt::format("'{}' includes itself", path.string()), "remove one of the includes");
     std::string text;
     try {
         text = readFile(path);
     } catch (Error& error) {
-        if (!from.file.empty()) throw Error(error.code, from, error.problem, error.remedy);
+        if (!from.file.empty()) throw Error(error.code, from, fmt::format("the included file '{}' {}", path.string(), error.problem), error.remedy);
         throw;
     }
     if (files) files->push_back(path);
@@ -158,6 +159,13 @@ void applySetting(Node& document, std::string_view setting) {
         path = path.substr(dot + 1);
     }
     *node = std::move(value);
+}
+
+std::filesystem::path pathIn(const Node& node) {
+    const std::filesystem::path path = *node.text();
+    // What was typed on the command line counts from where one stands.
+    if (node.where.file.starts_with("--set ")) return path.lexically_normal();
+    return (std::filesystem::path(node.where.file).parent_path() / path).lexically_normal();
 }
 
 std::string canonicalText(const Node& node) {

@@ -21,6 +21,9 @@ Node parseDocument(std::string_view text, const std::string& name);
 /// is taken as text, so that quotes can be left out. Throws Error (usage).
 void applySetting(Node& document, std::string_view setting);
 
+/// The path that a text node names: relative to the file that the node stands in, or to the working directory if it came from --set.
+std::filesystem::path pathIn(const Node& node);
+
 /// A stable text form, for hashing: keys sorted, places left out.
 std::string canonicalText(const Node& node);
 

@@ -25,8 +25,7 @@ struct GpuInstance {
     float viewFromMesh[3][4];
     std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
     std::uint32_t materialWords, partWords;
-    float facing;
-    std::uint32_t padding;
+    std::uint32_t padding[2];
 };
 static_assert(sizeof(GpuInstance) == 11 * 16);
 
@@ -216,6 +215,9 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
     if (countAll(meshes, &TriMesh::indices) / 3 > most || countAll(meshes, &TriMesh::positions) > most)
         throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene has more triangles or vertices than this GL device takes ({})", most), "use coarser meshes or another device");
 
+    if (const auto mostLights = static_cast<std::size_t>(limits.maxUniformBlock) / sizeof(GpuLight); has(needs, SceneData::lights) && scene.lights.size() > mostLights)
+        throw Error(ExitCode::badData, {}, fmt::format("the scene has {} lights, more than this GL device takes ({})", scene.lights.size(), mostLights), "remove some");
+
     std::vector<std::uint32_t> words;
     std::uint32_t vertices = 0, triangles = 0;
     for (const auto& mesh : meshes) {
@@ -336,7 +338,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
             gpu.viewFromMesh[row][3] = static_cast<float>(pivot[row]);
         }
         gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
-        gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.facing = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
+        gpu.materialWords = place.materialWords, gpu.partWords = place.partWords;
         instances.push_back(gpu);
     }
     const auto bytes = bytesOf(instances);
@@ -353,7 +355,8 @@ std::vector<std::byte> GpuScene::lightBytes(const DrawScene& scene, const View& 
         gpu.position = glm::vec4(glm::vec3(view.toView(light.position)), light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
         gpu.color = glm::vec4(light.color.r, light.color.g, light.color.b, 0) * static_cast<float>(light.intensity);
         const double half = glm::radians(light.angle) / 2;
-        gpu.cone = {std::cos(half), std::cos(half * (1 - light.blend)), 0, 0};
+        // A hard edge is a very narrow one: smoothstep needs its ends apart.
+        gpu.cone = {std::cos(half), std::max(std::cos(half * (1 - light.blend)), std::cos(half) + 1e-6), 0, 0};
         if (light.shadow.present) {
             const double texelAtUnit = light.kind == LightKind::sun    ? scene.info.diagonal() * view.unit / light.shadow.resolution
                                        : light.kind == LightKind::spot ? 2 * std::tan(half) / light.shadow.resolution

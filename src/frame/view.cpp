@@ -40,7 +40,7 @@ struct ViewConstants {
     int raster, firstSample;
     unsigned seed;
     bool orthographic;
-    float unit, near, far;
+    float unit, near, far, clipFar;
 };
 
 constexpr Field kViewConstants[] = {
@@ -59,7 +59,8 @@ constexpr Field kViewConstants[] = {
     field<&ViewConstants::orthographic>("orthographic", {.doc = "Parallel rays."}),
     field<&ViewConstants::unit>("unit", {.doc = "Normalized units per scene unit: a power of two."}),
     field<&ViewConstants::near>("near", {.unit = "normalized units", .doc = "Nearest depth drawn."}),
-    field<&ViewConstants::far>("far", {.unit = "normalized units", .doc = "Depth of the scene's far end."}),
+    field<&ViewConstants::far>("far", {.unit = "normalized units", .doc = "Depth that paper modes take for the far end."}),
+    field<&ViewConstants::clipFar>("clipFar", {.unit = "normalized units", .doc = "Depth beyond everything, where orthographic depth ends."}),
 };
 
 }  // namespace
@@ -90,9 +91,9 @@ glm::dmat4 View::clipFromView() const {
     if (orthographic) {
         m[3][0] = offset.x;
         m[3][1] = offset.y;
-        // far → 0, near → 1; depth is −z.
-        m[2][2] = 1 / (far - near);
-        m[3][2] = far / (far - near);
+        // clipFar → 0, near → 1; depth is −z.
+        m[2][2] = 1 / (clipFar - near);
+        m[3][2] = clipFar / (clipFar - near);
         m[3][3] = 1;
     } else {
         m[2][0] = -offset.x;
@@ -150,6 +151,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
     // Reversed float depth is as precise with a tiny near distance as with a large one.
     view.near = camera.near > 0 ? camera.near * view.unit : view.orthographic ? 0 : std::ldexp(1.0, -24);
+    view.clipFar = std::max(reach * 1.5 + 1, 2 * view.near);
     return view;
 }
 
@@ -207,6 +209,7 @@ UniformBlock viewBlock(const View& view) {
     c.unit = static_cast<float>(view.unit);
     c.near = static_cast<float>(view.near);
     c.far = static_cast<float>(view.far);
+    c.clipFar = static_cast<float>(view.clipFar);
     return makeUniformBlock("view", 0, kViewConstants, &c);
 }
 

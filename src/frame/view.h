@@ -53,7 +53,8 @@ struct View {
     /// Where the ray of fine pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
     /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
     glm::dvec2 rayScale{1}, rayOffset{0};
-    double near = 0, far = 0;       ///< normalized units; `far` bounds orthographic depth and paper modes only
+    double near = 0, far = 0;       ///< normalized units; only paper modes depend on `far`
+    double clipFar = 1;             ///< normalized units: beyond everything; orthographic depth is linear up to here
     double unit = 1;                ///< normalized units per scene unit
     double diagonal = 1;            ///< scene units
     double dpi = 96;

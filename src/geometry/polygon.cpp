@@ -12,7 +12,8 @@ struct Tessellation {
     bool failed = false;
 };
 
-std::uint32_t toIndex(void* data) { return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data)); }
+// Corners travel through GLU as pointers, counted from 1: null means "none" to it.
+std::uint32_t toIndex(void* data) { return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data)) - 1; }
 
 void onVertex(void* vertex, void* user) { static_cast<Tessellation*>(user)->indices.push_back(toIndex(vertex)); }
 void onEdgeFlag(GLboolean, void*) {}  // being told of edges is what makes GLU give plain triangles
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> triangulatePolygon(const std::vector<glm::dvec3>& pol
     gluTessBeginPolygon(tess, &result);
     gluTessBeginContour(tess);
     std::vector<glm::dvec3> points = polygon;
-    for (std::size_t i = 0; i < points.size(); ++i) gluTessVertex(tess, &points[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+    for (std::size_t i = 0; i < points.size(); ++i) gluTessVertex(tess, &points[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i + 1)));
     gluTessEndContour(tess);
     gluTessEndPolygon(tess);
     gluDeleteTess(tess);

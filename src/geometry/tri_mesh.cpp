@@ -1,7 +1,6 @@
 #include "geometry/tri_mesh.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -135,7 +134,8 @@ private:
 
     std::uint32_t vertex(std::uint32_t position, const glm::vec3& normal, const glm::vec2& uv) {
         std::uint32_t v = head_[position];
-        for (; v != kNone; v = next_[v])
+        // A cone's tip may have a hundred thousand different normals: past a point, looking for one's like costs more than a vertex.
+        for (int steps = 0; v != kNone && steps < 256; v = next_[v], ++steps)
             if ((!needs_.normals || out_.normals[v] == normal) && (!needs_.uvs || out_.uvs[v] == uv)) return v;
         v = static_cast<std::uint32_t>(out_.positions.size());
         out_.positions.emplace_back(mesh_.positions[position] - out_.pivot);

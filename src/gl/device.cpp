@@ -167,6 +167,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     limits_.maxViewport = std::min(viewport[0], viewport[1]);
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limits_.maxBufferTexels);
+    glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &limits_.maxUniformBlock);
 }
 
 Device::~Device() = default;

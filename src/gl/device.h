@@ -28,6 +28,7 @@ struct Limits {
     int maxTextureSize = 0;
     int maxViewport = 0;
     int maxBufferTexels = 0;     ///< elements of one buffer texture
+    int maxUniformBlock = 0;     ///< bytes
 };
 
 /// The context, current on the thread that made it until it is destroyed. One at a time.

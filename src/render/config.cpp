@@ -1,6 +1,7 @@
 #include "render/config.h"
 
 #include "base/color.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "config/document.h"
 
@@ -49,7 +50,7 @@ public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) : document_(std::move(document)), overrides_(overrides) {
         for (const auto& setting : overrides.settings) applySetting(document_, setting);
         config_.file = path;
-        config_.hash = Hash().add(canonicalText(document_)).hex();
+        config_.hash = Hash().add(canonicalText(document_)).add(overrides.camera).hex();
     }
 
     RenderConfig read() {
@@ -60,8 +61,8 @@ public:
         config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
         if (!header.scene.empty()) {
-            config_.scene = (config_.file.parent_path() / header.scene).lexically_normal();
-            if (!std::filesystem::exists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the config", ExitCode::missingInput);
+            config_.scene = pathIn(*document_.find("scene"));
+            if (!fileExists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the file that names them", ExitCode::missingInput);
         }
         if (!header.frames.empty() && !(config_.frames = parseFrames(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
         readImage();
@@ -120,7 +121,7 @@ private:
             readFields(*node, kOutput, &config_.output.encode, nullptr, "[output]", errors_, alsoKnown);
             if (config_.output.encode.bits != 8 && config_.output.encode.bits != 16) fail(*node->find("bits"), "'bits' in [output] must be 8 or 16", "");
             if (path && !path->text()) fail(*path, "'path' in [output] must be text", "");
-            else if (path) config_.output.path = (config_.file.parent_path() / *path->text()).lexically_normal();
+            else if (path) config_.output.path = pathIn(*path);
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
         // Without a word about where to: beside the working directory, under the config's name.
@@ -192,7 +193,7 @@ RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOve
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".obj") return parseRenderConfig(readDocument(path), path, overrides);
-    if (!std::filesystem::exists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
+    if (!fileExists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
     Node document = parseDocument(quickstartStyle(), "the quickstart's style");
     std::get<Node::Table>(document.value).emplace_back("scene", Node{{path.string()}, path.filename().string(), {}});
     return parseRenderConfig(std::move(document), path, overrides);

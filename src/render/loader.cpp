@@ -105,6 +105,10 @@ LoadedScene loadScene(const std::filesystem::path& path) {
             constexpr std::size_t kPiece = 4096, kPieces = 64;
             const std::size_t stride = std::max(kPiece, file.text().size() / kPieces);
             for (std::size_t at = 0; at < file.text().size(); at += stride) hash.add(file.text().substr(at, kPiece));
+            for (const auto& material : loaded.meshes[i].materials) {
+                hash.add(fmt::format("{} {} {} {} {} {}", material.name, material.color.r, material.color.g, material.color.b, material.shininess, material.specular));
+                if (!material.texture.empty()) hash.add(MappedFile(material.texture).text());
+            }
             hashes[i] = hash.value();
         } catch (const Error& error) {
             failed[i] = error;
@@ -118,6 +122,8 @@ LoadedScene loadScene(const std::filesystem::path& path) {
     Hash hash;
     for (const auto& file : files) hash.add(readFile(file));
     for (const auto value : hashes) hash.add(&value, sizeof value);
+    for (const auto& material : loaded.scene.materials)
+        if (!material.base.texture.empty()) hash.add(MappedFile(material.base.texture).text());
     loaded.hash = hash.hex();
     finishLoading(loaded);
     for (std::size_t i = 0; i < meshes.size(); ++i)
@@ -157,7 +163,13 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
         draw.camera = framingCamera(draw.info, imageSize);
     }
     if (draw.camera.position == draw.camera.lookAt) throw Error(ExitCode::usage, {scene.file}, fmt::format("camera '{}' looks at the point where it stands", draw.camera.name), "move look_at away from position");
-    for (const auto& light : scene.lights) draw.lights.push_back(light.at(frame));
+    for (const auto& keyed : scene.lights) {
+        Light light = keyed.at(frame);
+        const double size = std::max({std::abs(light.direction.x), std::abs(light.direction.y), std::abs(light.direction.z)});
+        if (light.kind != LightKind::point && !(size > 0)) throw Error(ExitCode::usage, {scene.file}, fmt::format("the direction of light '{}' has no length at frame {}", light.name, frame), "keep its keys from pointing opposite ways");
+        if (size > 0) light.direction = glm::normalize(light.direction / size);
+        draw.lights.push_back(std::move(light));
+    }
     if (draw.lights.empty()) draw.lights.push_back(defaultSun(draw.camera, draw.info));
     return draw;
 }

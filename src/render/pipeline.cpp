@@ -65,6 +65,8 @@ FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const V
 
     const bool sums = split.raster * split.subFrames > 1;
     for (const Aov* aov : aovs) {
+        if (!builder.find(*aov))
+            throw Error(ExitCode::usage, {config.file.string()}, fmt::format("the AOV '{}' is asked for, but at frame {} nothing makes it", aov->name, frame), "raise the opacity of a line layer, or leave the AOV out");
         const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view, split) : builder.read(*aov);
         result.wanted.push_back({std::string(aov->name), image});
         result.aovs.push_back(aov);

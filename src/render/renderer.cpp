@@ -272,7 +272,6 @@ std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const 
         write(path, *format, frame.layers);
         return written;
     }
-    // The picture itself first; a config without a beauty gives its first AOV the name.
     const auto main = std::find_if(frame.layers.begin(), frame.layers.end(), [](const Layer& layer) { return layer.name == "beauty"; });
     for (auto layer = frame.layers.begin(); layer != frame.layers.end(); ++layer) {
         if (layer == main) {

@@ -61,8 +61,8 @@ private:
     SceneData gpuSceneData_ = SceneData::none;
 };
 
-/// Writes a frame: the beauty, or everything, at `path`; AOVs that the format cannot hold go beside it as NAME.AOV.EXT (depth and other
-/// data as EXR). Returns the files written, in order.
+/// Writes a frame: EXR holds everything at `path`; other formats hold the beauty there, and AOVs go beside it as NAME.AOV.EXT (depth and
+/// other data as EXR). Returns the files written, in order.
 std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options);
 
 /// "room_####.exr" at 7 → "room_0007.exr".

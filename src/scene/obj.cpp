@@ -138,7 +138,10 @@ bool readCorner(Cursor& cursor, Chunk& chunk) {
         relative.push_back(index);
         return static_cast<std::int64_t>(count) + raw;
     };
-    const auto narrow = [](std::int64_t value) { return std::abs(value) < std::numeric_limits<std::int32_t>::max() ? static_cast<std::int32_t>(value) : kBadIndex; };
+    const auto narrow = [](std::int64_t value) { 
+        constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+        return value > -most && value < most ? static_cast<std::int32_t>(value) : kBadIndex;
+    };
     std::int64_t raw = 0;
     if (!cursor.integer(raw) || raw == 0) return false;
     Chunk::Corner corner{resolve(raw, chunk.positions.size(), chunk.relativePosition), PolyMesh::kNone, PolyMesh::kNone};
@@ -188,7 +191,7 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
             }
         }
     };
-    double n[4];
+    double n[4] = {};
     const auto change = [&](StateChange::Kind kind, std::string name, std::uint32_t group) { chunk.changes.push_back({kind, chunk.faceEnd.size(), std::move(name), group}); };
     if (keyword == "v") {
         numbers(n, 3, 0);  // a weight or a colour may follow
@@ -198,6 +201,10 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
         chunk.normals.emplace_back(n[0], n[1], n[2]);
     } else if (keyword == "vt") {
         numbers(n, 1, 2);
+        if (!(std::abs(n[0]) <= kLargestCoordinate && std::abs(n[1]) <= kLargestCoordinate)) {
+            chunk.warnings.add("texture coordinate that is no finite place; taken as 0", line);
+            n[0] = n[1] = 0;
+        }
         chunk.uvs.emplace_back(n[0], n[1]);
     } else if (keyword == "f" || keyword == "fo") {
         readFace(cursor, chunk, line);
@@ -454,7 +461,7 @@ std::vector<Material> parseMtl(std::string_view text, const std::filesystem::pat
             std::replace(file.begin(), file.end(), '\\', '/');
             if (file.empty()) return;
             const auto path = folder / file;
-            if (std::filesystem::exists(path)) materials.back().texture = path.string();
+            if (fileExists(path)) materials.back().texture = path.string();
             else found.add(fmt::format("texture '{}' is missing; drawn without", path.string()), number);
         }
     });
@@ -474,7 +481,7 @@ std::vector<Material> readMaterials(const std::filesystem::path& objPath, const 
     };
     for (const auto& line : mesh.materialLibraries) {
         const auto whole = objPath.parent_path() / line;
-        if (std::filesystem::exists(whole)) {  // the name itself may hold spaces
+        if (fileExists(whole)) {  // the name itself may hold spaces
             readLibrary(whole);
             continue;
         }

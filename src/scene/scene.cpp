@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "base/file.h"
 #include "base/text.h"
 #include "config/document.h"
 
@@ -99,7 +100,7 @@ std::optional<FrameRange> parseRange(std::string_view text) {
 
 class SceneReader {
 public:
-    SceneReader(const Node& document, const std::filesystem::path& path) : document_(document), folder_(path.parent_path()) { scene_.file = path.string(); }
+    SceneReader(const Node& document, const std::filesystem::path& path) : document_(document) { scene_.file = path.string(); }
 
     Scene read() {
         static constexpr std::string_view sections[] = {"units", "mesh", "instance", "camera", "light", "material", "animation"};
@@ -144,9 +145,8 @@ private:
 
     std::string resolveFile(const Node& node, std::string_view key, const std::string& file) {
         if (file.empty()) return file;
-        const auto path = (folder_ / file).lexically_normal();
-        if (!std::filesystem::exists(path))
-            fail(node.find(key) ? *node.find(key) : node, fmt::format("'{}' does not exist", path.string()), "paths are relative to the scene file", ExitCode::missingInput);
+        const auto path = pathIn(*node.find(key));
+        if (!fileExists(path)) fail(*node.find(key), fmt::format("'{}' does not exist", path.string()), "paths are relative to the file that names them", ExitCode::missingInput);
         return path.string();
     }
 
@@ -176,7 +176,7 @@ private:
     }
 
     void requireName(const Node& node, std::string_view key, const std::string& name, const std::set<std::string>& names) {
-        if (name.empty() || names.contains(name)) return;
+        if (!node.find(key) || names.contains(name)) return;
         const std::vector<std::string> candidates(names.begin(), names.end());
         fail(node.find(key) ? *node.find(key) : node, fmt::format("there is no {} named '{}'", key, name),
              candidates.empty() ? fmt::format("add a [[{}]] with that name", key) : nameRemedy(name, candidates));
@@ -202,6 +202,7 @@ private:
         if (camera.base.name.empty()) camera.base.name = fmt::format("camera{}", scene_.cameras.size() + 1);
         int lenses = 0;
         for (const auto key : {"focal_length", "fov", "orthographic_height"}) lenses += node.find(key) != nullptr;
+        if (camera.base.far > 0 && camera.base.near >= camera.base.far) fail(node, "the camera's near distance is not below its far distance", "lower near or raise far");
         if (lenses > 1) fail(node, "a camera can have only one of focal_length, fov and orthographic_height", "remove the others");
         if (node.find("position") && node.find("look_at") && !camera.moves() && camera.base.position == camera.base.lookAt) fail(*node.find("look_at"), "the camera looks at the point where it stands", "move look_at away from position");
         scene_.cameras.push_back(std::move(camera));
@@ -219,7 +220,6 @@ private:
     }
 
     const Node& document_;
-    std::filesystem::path folder_;
     Scene scene_;
     ErrorCollector errors_;
     std::set<std::string> meshNames_, materialNames_;

@@ -19,7 +19,7 @@ void main() {
     Instance instance = instanceAt(instanceNumber);
 #ifdef WRITES_depth
     // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
-    depth = view.orthographic ? view.far - gl_FragCoord.z * (view.far - view.near) : 1.0 / gl_FragCoord.w;
+    depth = view.orthographic ? view.clipFar - gl_FragCoord.z * (view.clipFar - view.near) : 1.0 / gl_FragCoord.w;
 #endif
 #ifdef WRITES_position
     position = vec4((view.worldFromView * vec4(viewPoint, 1.0)).xyz, 0);

@@ -45,7 +45,7 @@ struct Params {
 constexpr Field kParams[] = {
     field<&Params::points>("points", {.min = 1, .max = kMaxPoints, .accuracy = true, .keyable = false, .doc = "Points compared per pixel and sample."}),
     field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Farthest occluder that darkens a point."}),
-    field<&Params::radiusIn>("radius_in", {.doc = "Measure the reach in the scene (radius) or in the picture (image_radius), as the paper does."}),
+    field<&Params::radiusIn>("radius_in", {.doc = "Measure the reach in the scene (radius) or in the picture (image_radius), as the paper does; points then keep the pixel's depth."}),
     field<&Params::imageRadius>("image_radius", {.unit = "image widths", .min = 0, .max = 1, .doc = "Reach in the picture when radius_in = \"image\"."}),
     field<&Params::kernel>("kernel", {.doc = "Points all around the pixel, or only above its surface."}),
     field<&Params::sampleDepth>("sample_depth", {.doc = "Compare the depth buffer with the pixel's own depth (the paper) or with each point's."}),

@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 2> enumNames<ToonSpace> = {"percep
 namespace shading_toon {
 
 constexpr int kMaxBands = 16;
+constexpr int kMaxLevels = 64;   // of the display-encoded table, which goes on above 1
 
 struct Params {
     int bands = 4;
@@ -61,7 +62,7 @@ constexpr Field kLightConstants[] = {
 };
 
 struct BandConstants {
-    std::array<glm::vec4, kMaxBands> bands{};
+    std::array<glm::vec4, kMaxLevels> bands{};
     int count = 0;
     float edgeSoftness = 0;
 };
@@ -70,19 +71,19 @@ constexpr Field kBandConstants[] = {
     field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "fine pixels", .doc = "Width of the transition between bands."}),
 };
 
-BandConstants deriveBands(const Params& params) {
+BandConstants deriveBands(const Params& params, const View& view) {
     BandConstants c;
-    c.edgeSoftness = params.edgeSoftness;
+    c.edgeSoftness = params.edgeSoftness * static_cast<float>(view.raster);
     if (params.space == ToonSpace::display) {
         // floor(n·I)/n without an upper end: the levels above 1 clip when the colour is encoded.
-        c.count = kMaxBands;
-        for (int i = 0; i < kMaxBands; ++i) {
+        c.count = 4 * params.bands;   // up to four times the full colour
+        for (int i = 0; i < c.count; ++i) {
             const float level = static_cast<float>(i) / static_cast<float>(params.bands);
             c.bands[static_cast<std::size_t>(i)] = glm::vec4(glm::vec3(level), level);
         }
         return c;
     }
-    c.count = params.ramp.empty() ? params.bands : std::clamp(static_cast<int>(params.ramp.size()), 1, kMaxBands);
+    c.count = params.ramp.empty() ? params.bands : static_cast<int>(params.ramp.size());
     for (int i = 0; i < c.count; ++i) {
         const float n = static_cast<float>(c.count), step = static_cast<float>(i);
         const float level = srgbToLinear(params.floorLevel + (1 - params.floorLevel) * (n > 1 ? step / (n - 1) : 1));
@@ -93,6 +94,7 @@ BandConstants deriveBands(const Params& params) {
 }
 
 void build(EffectBuilder& graph, const Params& params) {
+    if (params.ramp.size() > kMaxBands) throw Error(ExitCode::usage, {}, "the 'ramp' of [shading] has more than 16 colours", "leave some out");
     const bool colored = graph.scene().coloredLight;
     const ResourceId light = graph.image("toon_light", colored ? Format::rgba32f : Format::r32f);
     Pass pass;
@@ -126,7 +128,7 @@ void build(EffectBuilder& graph, const Params& params) {
     if (params.space == ToonSpace::display) bands.defines.emplace_back("DISPLAY_ENCODED", "");
     if (colored) bands.defines.emplace_back("COLORED_LIGHT", "");
     bands.writes = {{"result", result}};
-    const BandConstants constants = deriveBands(params);
+    const BandConstants constants = deriveBands(params, graph.view());
     bands.params = paramsBlock(kBandConstants, constants);
     bands.defines.emplace_back("BAND_COUNT", std::to_string(constants.count));
     bands.note = std::to_string(params.ramp.empty() ? params.bands : constants.count) + " bands";
