@@ -2,10 +2,12 @@
 //
 // Buffer textures, not storage buffers: a fetch brings up to four numbers at once, and software renderers read them several times faster.
 
-layout(binding = 8) uniform samplerBuffer positions;    // per vertex: xyz, mesh units from the mesh's pivot
-layout(binding = 9) uniform usamplerBuffer triangles;   // per triangle: its three vertices, counted within the mesh
-layout(binding = 10) uniform samplerBuffer normals;     // per vertex: xyz
-layout(binding = 11) uniform samplerBuffer uvs;         // per vertex: uv
+layout(binding = 6) uniform samplerBuffer positions;         // xyz, mesh units from the mesh's pivot
+layout(binding = 7) uniform usamplerBuffer triangles;        // per triangle: its three positions, counted within the mesh
+layout(binding = 8) uniform samplerBuffer normals;           // xyz
+layout(binding = 9) uniform usamplerBuffer triangleNormals;  // per triangle: its three normals
+layout(binding = 10) uniform samplerBuffer uvs;
+layout(binding = 11) uniform usamplerBuffer triangleUvs;     // per triangle: its three uvs
 layout(binding = 12) uniform usamplerBuffer words;      // numbers of materials and parts; see Instance
 layout(binding = 13) uniform usamplerBuffer instances;  // eleven texels per instance; see below
 layout(binding = 14) uniform samplerBuffer materials;   // three texels per material
@@ -14,18 +16,20 @@ const int INSTANCE_TEXELS = 11;
 const uint NO_WORDS = 0xffffffffu;
 
 struct Instance {
-    uint firstVertex;       // of the mesh, in positions, normals and uvs
+    uint firstVertex;       // of the mesh, in positions
     uint firstTriangle;     // of the mesh, in triangles
     uint materialTable;     // words[materialTable + i] = material of the mesh's i-th material name
     uint firstObject;       // object_id of the mesh's first part
     uint materialWords;     // words[materialWords + triangle] = number of its material name; NO_WORDS: all 0
     uint partWords;         // words[partWords + triangle] = number of its part; NO_WORDS: all 0
+    uint firstNormal;       // of the mesh, in normals
+    uint firstUv;           // of the mesh, in uvs
 };
 
 Instance instanceAt(uint number) {
     int at = int(number) * INSTANCE_TEXELS;
     uvec4 a = texelFetch(instances, at + 9), b = texelFetch(instances, at + 10);
-    return Instance(a.x, a.y, a.z, a.w, b.x, b.y);
+    return Instance(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
 // Mesh units relative to the mesh's pivot → normalized view space.

@@ -16,7 +16,7 @@ namespace limn {
 namespace {
 
 // Texture units of the buffers in shaders/frame/scene.glsl and of the atlas in shaders/lib/texture.glsl.
-enum Unit { positionsUnit = 8, trianglesUnit, normalsUnit, uvsUnit, wordsUnit, instancesUnit, materialsUnit, atlasUnit };
+enum Unit { positionsUnit = 6, trianglesUnit, normalsUnit, triangleNormalsUnit, uvsUnit, triangleUvsUnit, wordsUnit, instancesUnit, materialsUnit, atlasUnit };
 constexpr int kLightsBinding = 2;
 
 // One instance, as shaders/frame/scene.glsl fetches it: eleven texels of sixteen bytes.
@@ -24,8 +24,7 @@ struct GpuInstance {
     double meshFromView[3][4];
     float viewFromMesh[3][4];
     std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
-    std::uint32_t materialWords, partWords;
-    std::uint32_t padding[2];
+    std::uint32_t materialWords, partWords, firstNormal, firstUv;
 };
 static_assert(sizeof(GpuInstance) == 11 * 16);
 
@@ -219,9 +218,9 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
         throw Error(ExitCode::badData, {}, fmt::format("the scene has {} lights, more than this GL device takes ({})", scene.lights.size(), mostLights), "remove some");
 
     std::vector<std::uint32_t> words;
-    std::uint32_t vertices = 0, triangles = 0;
+    std::uint32_t vertices = 0, triangles = 0, normals = 0, uvs = 0;
     for (const auto& mesh : meshes) {
-        MeshPlace place{vertices, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, mesh.pivot};
+        MeshPlace place{vertices, normals, uvs, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, mesh.pivot};
         const auto addWords = [&](const std::vector<std::uint32_t>& values) {
             if (values.empty()) return kNoWords;
             words.insert(words.end(), values.begin(), values.end());
@@ -230,6 +229,8 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
         if (has(needs, SceneData::materials)) place.materialWords = addWords(mesh.triangleMaterial);
         place.partWords = addWords(mesh.trianglePart);
         vertices += static_cast<std::uint32_t>(mesh.positions.size());
+        normals += static_cast<std::uint32_t>(mesh.normals.size());
+        uvs += static_cast<std::uint32_t>(mesh.uvs.size());
         triangles += place.triangleCount;
         places_.push_back(place);
     }
@@ -251,16 +252,28 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
     positionsView_ = gl::BufferView(positions_, gl::Element::float3, "positions");
     trianglesView_ = gl::BufferView(indices_, gl::Element::uint3, "triangles");
     wordsView_ = gl::BufferView(words_, gl::Element::uint1, "words");
+    // Meshes are all of one layout: unified for vertex pipelines, or with indices of their own for each attribute.
+    const bool hasOwnIndices = countAll(meshes, &TriMesh::normalIndices) + countAll(meshes, &TriMesh::uvIndices) > 0;
     std::vector<gl::VertexInput> inputs{{&positions_, 0, 3}, {&instanceNumbers_, 1, 0}};
     if (has(needs, SceneData::normals)) {
         normals_ = upload(bytesOf(concatenate(meshes, &TriMesh::normals)), "normals");
         normalsView_ = gl::BufferView(normals_, gl::Element::float3, "normals");
-        inputs.push_back({&normals_, 2, 3});
+        if (hasOwnIndices) {
+            normalIndices_ = upload(bytesOf(concatenate(meshes, &TriMesh::normalIndices)), "triangles' normals");
+            triangleNormalsView_ = gl::BufferView(normalIndices_, gl::Element::uint3, "triangles' normals");
+        } else {
+            inputs.push_back({&normals_, 2, 3});
+        }
     }
     if (has(needs, SceneData::uvs)) {
         uvs_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvs)), "uvs");
         uvsView_ = gl::BufferView(uvs_, gl::Element::float2, "uvs");
-        inputs.push_back({&uvs_, 3, 2});
+        if (hasOwnIndices) {
+            uvIndices_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvIndices)), "triangles' uvs");
+            triangleUvsView_ = gl::BufferView(uvIndices_, gl::Element::uint3, "triangles' uvs");
+        } else {
+            inputs.push_back({&uvs_, 3, 2});
+        }
     }
     vertexArray_ = gl::VertexArray(inputs, indices_, "scene");
 
@@ -338,7 +351,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
             gpu.viewFromMesh[row][3] = static_cast<float>(pivot[row]);
         }
         gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
-        gpu.materialWords = place.materialWords, gpu.partWords = place.partWords;
+        gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.firstNormal = place.firstNormal, gpu.firstUv = place.firstUv;
         instances.push_back(gpu);
     }
     const auto bytes = bytesOf(instances);
@@ -392,6 +405,8 @@ void GpuScene::bind() const {
     instancesView_.bind(instancesUnit);
     if (normalsView_) normalsView_.bind(normalsUnit);
     if (uvsView_) uvsView_.bind(uvsUnit);
+    if (triangleNormalsView_) triangleNormalsView_.bind(triangleNormalsUnit);
+    if (triangleUvsView_) triangleUvsView_.bind(triangleUvsUnit);
     if (materialsView_) materialsView_.bind(materialsUnit);
     if (lights_) lights_.bindUniform(kLightsBinding);
     if (atlas_) atlas_.bindSampler(atlasUnit);

@@ -57,14 +57,14 @@ private:
     std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
     std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
 
-    struct MeshPlace { std::uint32_t firstVertex, firstTriangle, triangleCount, materialWords, partWords; glm::dvec3 pivot; };
+    struct MeshPlace { std::uint32_t firstVertex, firstNormal, firstUv, firstTriangle, triangleCount, materialWords, partWords; glm::dvec3 pivot; };
     std::vector<MeshPlace> places_;
     std::vector<std::uint32_t> materialTables_;   ///< offset of each instance's table in the words buffer
     struct AtlasEntry { glm::ivec3 place{0}; int levels = 0; glm::ivec2 size{0}; };   ///< place: x, y, layer
     std::vector<AtlasEntry> atlasEntries_;        ///< of each material
     SceneData needs_;
-    gl::Buffer positions_, normals_, uvs_, indices_, words_, instances_, materials_, lights_, commands_, instanceNumbers_;
-    gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, wordsView_, instancesView_, materialsView_;
+    gl::Buffer positions_, normals_, uvs_, indices_, normalIndices_, uvIndices_, words_, instances_, materials_, lights_, commands_, instanceNumbers_;
+    gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_, wordsView_, instancesView_, materialsView_;
     gl::Texture atlas_;
     gl::VertexArray vertexArray_;
     std::uint64_t bytes_ = 0;

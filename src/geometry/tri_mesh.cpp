@@ -182,13 +182,28 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
             for (std::size_t c = 0; c < made.size(); ++c)
                 if (mesh.cornerNormal[c] != PolyMesh::kNone) made[c] = unitOrZero(mesh.normals[static_cast<std::size_t>(mesh.cornerNormal[c])]);
     }
+    const bool fileNormals = needs.normals && made.empty();
     std::vector<std::uint32_t> cornerVertex;
-    if (needs.normals || needs.uvs) {
+    if (needs.unified && (needs.normals || needs.uvs)) {
         cornerVertex = VertexGatherer(mesh, out, needs).gather(made);
     } else {
         out.positions.resize(mesh.positions.size());
         tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) { out.positions[i] = glm::vec3(mesh.positions[i] - out.pivot); });
+        // Attributes keep the file's own indices, so that a vertex whose faces differ in normal is still one vertex to the rasterizer.
+        if (fileNormals) {
+            out.normals.resize(mesh.normals.size());
+            tbb::parallel_for(std::size_t{0}, mesh.normals.size(), [&](std::size_t i) { out.normals[i] = unitOrZero(mesh.normals[i]); });
+        } else if (needs.normals) {
+            out.normals = std::move(made);
+        }
+        if (needs.uvs) {
+            out.uvs = mesh.uvs;
+            out.uvs.emplace_back(0);   // for corners without
+        }
     }
+    const auto normalOf = [&](std::uint32_t corner) { return fileNormals ? static_cast<std::uint32_t>(mesh.cornerNormal[corner]) : corner; };
+    const auto uvOf = [&](std::uint32_t corner) { return mesh.cornerUv.empty() || mesh.cornerUv[corner] == PolyMesh::kNone ? static_cast<std::uint32_t>(mesh.uvs.size()) : static_cast<std::uint32_t>(mesh.cornerUv[corner]); };
+    const bool ownNormals = needs.normals && !needs.unified, ownUvs = needs.uvs && !needs.unified;
     const auto vertexOf = [&](std::uint32_t corner) { return cornerVertex.empty() ? mesh.cornerPosition[corner] : cornerVertex[corner]; };
 
     const std::size_t count = triangles.corner.size() / 3;
@@ -200,16 +215,25 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
     });
     std::size_t kept = 0;
     out.indices.resize(triangles.corner.size());
+    if (ownNormals) out.normalIndices.resize(triangles.corner.size());
+    if (ownUvs) out.uvIndices.resize(triangles.corner.size());
     if (wantMaterials) out.triangleMaterial.resize(count);
     if (wantParts) out.trianglePart.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
         if (!keep[t]) continue;
-        for (std::size_t k = 0; k < 3; ++k) out.indices[3 * kept + k] = vertexOf(triangles.corner[3 * t + k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t corner = triangles.corner[3 * t + k];
+            out.indices[3 * kept + k] = vertexOf(corner);
+            if (ownNormals) out.normalIndices[3 * kept + k] = normalOf(corner);
+            if (ownUvs) out.uvIndices[3 * kept + k] = uvOf(corner);
+        }
         if (wantMaterials) out.triangleMaterial[kept] = mesh.faceMaterial[triangles.face[t]];
         if (wantParts) out.trianglePart[kept] = mesh.facePart[triangles.face[t]];
         ++kept;
     }
     out.indices.resize(3 * kept);
+    if (ownNormals) out.normalIndices.resize(3 * kept);
+    if (ownUvs) out.uvIndices.resize(3 * kept);
     if (wantMaterials) out.triangleMaterial.resize(kept);
     if (wantParts) out.trianglePart.resize(kept);
     return out;

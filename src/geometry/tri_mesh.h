@@ -26,6 +26,7 @@ struct Bounds {
 struct MeshNeeds {
     bool normals = false;
     bool uvs = false;
+    bool unified = false;   ///< one index for everything, as vertex pipelines want it; else positions stay shared and each attribute has its own
     bool operator==(const MeshNeeds&) const = default;
 };
 
@@ -34,7 +35,9 @@ struct TriMesh {
     std::vector<glm::vec3> positions;          ///< mesh units
     std::vector<glm::vec3> normals;            ///< unit length, or zero where the surface has none; empty unless asked for
     std::vector<glm::vec2> uvs;                ///< empty unless asked for
-    std::vector<std::uint32_t> indices;        ///< three per triangle, counter-clockwise from outside
+    std::vector<std::uint32_t> indices;        ///< three positions per triangle, counter-clockwise from outside
+    std::vector<std::uint32_t> normalIndices;  ///< three normals per triangle; empty when unified, or without normals
+    std::vector<std::uint32_t> uvIndices;      ///< three uvs per triangle; empty when unified, or without uvs
     std::vector<std::uint32_t> triangleMaterial;  ///< index into PolyMesh::materialNames; empty = all 0
     std::vector<std::uint32_t> trianglePart;      ///< index into PolyMesh::partNames; empty = all 0
 

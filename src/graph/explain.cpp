@@ -106,7 +106,7 @@ private:
     }
     std::vector<std::string> sceneData() const {
         constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"}, {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"},
-                                                             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}};
+                                                             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}, {SceneData::unifiedVertices, "one index for all attributes"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)
             if (has(plan_.sceneData, flag)) names.emplace_back(text);

@@ -31,7 +31,7 @@ struct Resource {
 };
 
 /// Data of the scene that shaders read.
-enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32 };
+enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64 };
 constexpr SceneData operator|(SceneData a, SceneData b) { return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
 constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
 

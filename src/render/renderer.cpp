@@ -184,7 +184,7 @@ GpuScene& Renderer::sceneOnGpu(const LoadedScene& loaded, const DrawScene& scene
     Stopwatch watch(times);
     std::vector<TriMesh> meshes(loaded.meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
-        if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs)});
+        if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)});
     });
     watch.lap("of which triangles");
     gpuScene_ = nullptr;   // gives the old one's memory back first

@@ -93,7 +93,9 @@ TEST(Obj, hostileTextNeverCrashes) {
         try {
             const auto file = parse(text);
             for (const auto v : file.mesh.cornerPosition) ASSERT_LT(v, file.mesh.positions.size());
-            const TriMesh mesh = buildTriMesh(file.mesh, {true, true});
+            const TriMesh mesh = buildTriMesh(file.mesh, {true, true, i % 2 == 0});
+            for (const auto index : mesh.normalIndices) ASSERT_LT(index, mesh.normals.size());
+            for (const auto index : mesh.uvIndices) ASSERT_LT(index, mesh.uvs.size());
             for (const auto index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
             for (const auto& n : mesh.normals) ASSERT_TRUE(std::isfinite(n.x + n.y + n.z));
             ++survived;
@@ -131,7 +133,7 @@ TEST(TriMesh, buildsOnlyWhatIsAsked) {
     const TriMesh bare = buildTriMesh(file.mesh, {});
     EXPECT_TRUE(bare.normals.empty() && bare.uvs.empty() && bare.triangleMaterial.empty() && bare.trianglePart.empty());
     EXPECT_EQ(bare.triangleCount(), 2u);
-    const TriMesh full = buildTriMesh(file.mesh, {true, true});
+    const TriMesh full = buildTriMesh(file.mesh, {true, true, true});
     EXPECT_EQ(full.normals.size(), full.positions.size());
     EXPECT_EQ(full.uvs.size(), full.positions.size());
 }
@@ -142,7 +144,7 @@ TEST(TriMesh, missingNormalsAreSmoothByAngleOrGroup) {
         const double r = degrees * std::acos(-1.0) / 180;
         return fmt::format("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv {0} 0 {1}\nv {0} 1 {1}\n{2}f 1 2 3 4\nf 2 5 6 3\n", 1 + std::cos(r), std::sin(r), smoothing);
     };
-    const auto vertices = [&](double degrees, const char* smoothing) { return buildTriMesh(parse(fold(degrees, smoothing)).mesh, {true, false}).positions.size(); };
+    const auto vertices = [&](double degrees, const char* smoothing) { return buildTriMesh(parse(fold(degrees, smoothing)).mesh, {true, false, true}).positions.size(); };
     EXPECT_EQ(vertices(20, ""), 8u - 2u + 0u + 0u);   // shared along the fold…
     EXPECT_EQ(vertices(90, ""), 8u);                  // …or split
     EXPECT_EQ(vertices(90, "s 1\n"), 6u);

@@ -122,8 +122,9 @@ void main() {
     write_normal_geometric(vec4(encodeNormal(towardsViewer), 0, 0));
 #endif
 #ifdef WRITES_normal
-    vec3 n0 = texelFetch(normals, corners.x).xyz;
-    vec3 between = n0 + weights.x * (texelFetch(normals, corners.y).xyz - n0) + weights.y * (texelFetch(normals, corners.z).xyz - n0);
+    ivec3 at = int(instance.firstNormal) + ivec3(texelFetch(triangleNormals, int(instance.firstTriangle + triangle)).xyz);
+    vec3 n0 = texelFetch(normals, at.x).xyz;
+    vec3 between = n0 + weights.x * (texelFetch(normals, at.y).xyz - n0) + weights.y * (texelFetch(normals, at.z).xyz - n0);
     // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A back side shows its normals turned.
     bool usable = dot(between, between) > 1e-8;
     vec3 turned = viewNormal(s.meshFromView, between) * (fromBehind ? -1.0 : 1.0);
@@ -141,11 +142,12 @@ void main() {
 #ifdef WRITES_albedo
     Material look = materialAt(material);
 #ifdef TEXTURED
-    vec2 uv = uvAt(corners, weights);
+    ivec3 uvCorners = int(instance.firstUv) + ivec3(texelFetch(triangleUvs, int(instance.firstTriangle + triangle)).xyz);
+    vec2 uv = uvAt(uvCorners, weights);
     // How uv changes across the pixel, on the triangle's whole plane.
-    vec2 here = uvAt(corners, hit.weights);
-    vec2 uvX = uvAt(corners, intersect(s, centre + dvec2(1.0lf, 0.0lf)).weights) - here;
-    vec2 uvY = uvAt(corners, intersect(s, centre + dvec2(0.0lf, 1.0lf)).weights) - here;
+    vec2 here = uvAt(uvCorners, hit.weights);
+    vec2 uvX = uvAt(uvCorners, intersect(s, centre + dvec2(1.0lf, 0.0lf)).weights) - here;
+    vec2 uvY = uvAt(uvCorners, intersect(s, centre + dvec2(0.0lf, 1.0lf)).weights) - here;
     if (look.levels > 0) look.color *= sampleTexture(look, uv, uvX, uvY).rgb;
 #endif
     write_albedo(vec4(look.color, 1));

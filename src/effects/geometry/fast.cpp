@@ -15,7 +15,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.writes = publishSurfaces(graph);
     raster.writes.push_back({"zBuffer", graph.image("z_buffer", Format::depth32f)});
     raster.defines = surfaceDefines(graph);
-    raster.needs = SceneData::positions;
+    raster.needs = SceneData::positions | SceneData::unifiedVertices;
     raster.note = "interpolated by the hardware";
     graph.add(std::move(raster));
 }
