@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "config/document.h"
+#include "scene/frames.h"
 
 #include <fmt/format.h>
 
@@ -35,16 +36,6 @@ constexpr Field kOutput[] = {
     field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100, .doc = "Quality of JPEG."}),
 };
 
-/// The range of frames "a-b" or "a".
-std::optional<FrameRange> parseFrames(std::string_view text) {
-    const auto dash = text.find('-', 1);
-    const auto first = parseNumber(text.substr(0, dash));
-    const auto last = dash == std::string_view::npos ? first : parseNumber(text.substr(dash + 1));
-    const auto isFrame = [](double f) { return std::abs(f) < 1e9 && f == static_cast<int>(f); };
-    if (!first || !last || !isFrame(*first) || !isFrame(*last) || *last < *first) return std::nullopt;
-    return FrameRange{static_cast<int>(*first), static_cast<int>(*last)};
-}
-
 class ConfigReader {
 public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) : document_(std::move(document)), overrides_(overrides) {
@@ -64,7 +55,7 @@ public:
             config_.scene = pathIn(*document_.find("scene"));
             if (!fileExists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the file that names them", ExitCode::missingInput);
         }
-        if (!header.frames.empty() && !(config_.frames = parseFrames(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
+        if (!header.frames.empty() && !(config_.frames = parseFrameRange(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
         readImage();
         readEffects();
         readOutput();

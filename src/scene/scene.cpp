@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "config/document.h"
+#include "scene/frames.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -89,15 +90,6 @@ constexpr Field kAnimation[] = {
     field<&Animation::fps>("fps", {.unit = "frames per second", .min = 0.001, .max = 1e6, .doc = "Playing speed."}),
 };
 
-std::optional<FrameRange> parseRange(std::string_view text) {
-    const auto dash = text.find('-', 1);  // from 1: the first number may be negative
-    const auto first = parseNumber(text.substr(0, dash));
-    const auto last = dash == std::string_view::npos ? first : parseNumber(text.substr(dash + 1));
-    const auto isFrame = [](double f) { return std::abs(f) < 1e9 && f == static_cast<int>(f); };
-    if (!first || !last || !isFrame(*first) || !isFrame(*last) || *last < *first) return std::nullopt;
-    return FrameRange{static_cast<int>(*first), static_cast<int>(*last)};
-}
-
 class SceneReader {
 public:
     SceneReader(const Node& document, const std::filesystem::path& path) : document_(document) { scene_.file = path.string(); }
@@ -156,7 +148,7 @@ private:
         Animation animation;
         readFields(*node, kAnimation, &animation, nullptr, "[animation]", errors_);
         scene_.fps = animation.fps;
-        scene_.frames = parseRange(animation.frames);
+        scene_.frames = parseFrameRange(animation.frames);
         if (!animation.frames.empty() && !scene_.frames) fail(*node->find("frames"), fmt::format("frames '{}' is no range", animation.frames), "write for example frames = \"1-240\"");
     }
 
