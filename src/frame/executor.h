@@ -21,7 +21,7 @@ class Executor {
 public:
     Executor(const gl::Device& device, const ShaderLibrary& shaders) : device_(device), shaders_(shaders) {}
 
-    /// Compiles every program that the plan needs, before the scene is there: the two can overlap.
+    /// Compiles every program that the plan needs, so that drawing times are drawing alone.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
     /// Draws one sub-frame. With `measure`, adds each pass's GPU time to milliseconds().

@@ -203,11 +203,6 @@ ShadowLayout shadowLayout(std::span<const Light> lights) {
     return layout;
 }
 
-gl::Buffer GpuScene::upload(std::span<const std::byte> data, const char* label) {
-    bytes_ += data.size();
-    return gl::Buffer(data, label);
-}
-
 GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, const gl::Limits& limits) : needs_(needs) {
     if (!has(needs, SceneData::positions)) return;
     const auto most = static_cast<std::uint64_t>(limits.maxBufferTexels);
@@ -244,11 +239,11 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
         commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3, static_cast<std::int32_t>(place.firstVertex), number});
         numbers.push_back(number);
     }
-    positions_ = upload(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
-    indices_ = upload(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
-    words_ = upload(bytesOf(words), "words");
-    commands_ = upload(bytesOf(commands), "draw commands");
-    instanceNumbers_ = upload(bytesOf(numbers), "instance numbers");
+    positions_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
+    indices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
+    words_ = gl::Buffer(bytesOf(words), "words");
+    commands_ = gl::Buffer(bytesOf(commands), "draw commands");
+    instanceNumbers_ = gl::Buffer(bytesOf(numbers), "instance numbers");
     positionsView_ = gl::BufferView(positions_, gl::Element::float3, "positions");
     trianglesView_ = gl::BufferView(indices_, gl::Element::uint3, "triangles");
     wordsView_ = gl::BufferView(words_, gl::Element::uint1, "words");
@@ -256,20 +251,20 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
     const bool hasOwnIndices = countAll(meshes, &TriMesh::normalIndices) + countAll(meshes, &TriMesh::uvIndices) > 0;
     std::vector<gl::VertexInput> inputs{{&positions_, 0, 3}, {&instanceNumbers_, 1, 0}};
     if (has(needs, SceneData::normals)) {
-        normals_ = upload(bytesOf(concatenate(meshes, &TriMesh::normals)), "normals");
+        normals_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::normals)), "normals");
         normalsView_ = gl::BufferView(normals_, gl::Element::float3, "normals");
         if (hasOwnIndices) {
-            normalIndices_ = upload(bytesOf(concatenate(meshes, &TriMesh::normalIndices)), "triangles' normals");
+            normalIndices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::normalIndices)), "triangles' normals");
             triangleNormalsView_ = gl::BufferView(normalIndices_, gl::Element::uint3, "triangles' normals");
         } else {
             inputs.push_back({&normals_, 2, 3});
         }
     }
     if (has(needs, SceneData::uvs)) {
-        uvs_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvs)), "uvs");
+        uvs_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::uvs)), "uvs");
         uvsView_ = gl::BufferView(uvs_, gl::Element::float2, "uvs");
         if (hasOwnIndices) {
-            uvIndices_ = upload(bytesOf(concatenate(meshes, &TriMesh::uvIndices)), "triangles' uvs");
+            uvIndices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::uvIndices)), "triangles' uvs");
             triangleUvsView_ = gl::BufferView(uvIndices_, gl::Element::uint3, "triangles' uvs");
         } else {
             inputs.push_back({&uvs_, 3, 2});
@@ -288,7 +283,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
             gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b}, number(entry.levels), m.shininess, m.specular, number(entry.place.z), 0,
                                     {number(entry.place.x), number(entry.place.y), number(entry.size.x), number(entry.size.y)}});
         }
-        materials_ = upload(bytesOf(gpuMaterials), "materials");
+        materials_ = gl::Buffer(bytesOf(gpuMaterials), "materials");
         materialsView_ = gl::BufferView(materials_, gl::Element::float4, "materials");
     }
 }
@@ -322,7 +317,6 @@ void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
         shelf = std::max(shelf, footprint.y);
     }
     atlas_ = gl::Texture::pictureArray(side, pen.z + 1, "texture atlas");
-    bytes_ += std::uint64_t{4} * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(pen.z + 1);
     for (const auto& [file, chain] : chains)
         for (int l = 0; l < chain.levels; ++l) atlas_.writeLayer(places[file].z, glm::ivec2(places[file]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -389,7 +383,7 @@ std::vector<std::byte> GpuScene::lightBytes(const DrawScene& scene, const View& 
 void GpuScene::setView(const DrawScene& scene, const View& view) {
     if (!has(needs_, SceneData::positions)) return;
     const auto put = [&](gl::Buffer& buffer, const std::vector<std::byte>& data, const char* label) {
-        if (!buffer || buffer.size() != data.size()) buffer = upload(data, label);
+        if (!buffer || buffer.size() != data.size()) buffer = gl::Buffer(data, label);
         else buffer.write(data);
     };
     put(instances_, instanceBytes(scene, view), "instances");

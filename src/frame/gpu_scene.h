@@ -9,8 +9,6 @@
 #include "image/image.h"
 #include "scene/scene.h"
 
-#include <functional>
-
 namespace limn {
 
 /// One mesh, placed.
@@ -48,11 +46,8 @@ public:
 
     void bind() const;
     void draw() const;   ///< every instance, in scene order
-    std::uint64_t bytes() const { return bytes_; }
-    bool hasTextures() const { return static_cast<bool>(atlas_); }
 
 private:
-    gl::Buffer upload(std::span<const std::byte> data, const char* label);
     void loadTextures(const DrawScene& scene, int maxTextureSize);
     std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
     std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
@@ -67,7 +62,6 @@ private:
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_, wordsView_, instancesView_, materialsView_;
     gl::Texture atlas_;
     gl::VertexArray vertexArray_;
-    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace limn

@@ -101,7 +101,6 @@ void Texture::bindSampler(int unit) const { glBindTextureUnit(static_cast<GLuint
 void Texture::bindImage(int unit, bool readWrite) const {
     glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, readWrite ? GL_READ_WRITE : GL_WRITE_ONLY, internalFormat(format_));
 }
-void Texture::clear(glm::vec4 value) const { glClearTexImage(id(), 0, info(format_).channels == 1 ? GL_RED : GL_RGBA, GL_FLOAT, &value); }
 
 std::vector<float> Texture::read(int channels) const {
     std::vector<float> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));

@@ -81,7 +81,6 @@ public:
 
     void bindSampler(int unit) const;
     void bindImage(int unit, bool readWrite) const;
-    void clear(glm::vec4 value) const;
     /// Floats of the region, rows from the bottom as GL has them; integers come as floats.
     std::vector<float> read(int channels) const;
     std::vector<std::uint32_t> readIntegers(int channels) const;

@@ -5,7 +5,7 @@
 #include "render/loader.h"
 #include "render/pipeline.h"
 
-#include <functional>
+#include <memory>
 
 namespace limn {
 
