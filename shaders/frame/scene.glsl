@@ -32,6 +32,8 @@ Instance instanceAt(uint number) {
     return Instance(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
+uint firstVertexOf(uint number) { return texelFetch(instances, int(number) * INSTANCE_TEXELS + 9).x; }
+
 // Mesh units relative to the mesh's pivot → normalized view space.
 vec3 viewFromMesh(uint number, vec3 point) {
     int at = int(number) * INSTANCE_TEXELS + 6;

@@ -1,4 +1,4 @@
-// Randomness as a pure function of (global output pixel, sample, seed): the same for every tile, thread and driver.
+// Randomness as a pure function of (global pixel, sample, seed): the same for every tile, thread and driver.
 //
 // Integer arithmetic only, so that every implementation agrees to the bit.
 
@@ -12,12 +12,8 @@ uint mixBits(uint x) {
 // [0, 1) with 24 bits.
 float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 
-// Output pixel (xy) and number of the sample within it (z) of a fine pixel.
-ivec3 sampleOf(ivec2 pixel) {
-    ivec2 global = pixel + view.origin;
-    ivec2 within = global % view.raster;
-    return ivec3(global / view.raster, view.firstSample + within.y * view.raster + within.x);
-}
+// Pixel of the whole picture (xy) and number of the sample within it (z).
+ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin, view.sampleNumber); }
 
 // Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel: additive recurrences with the
 // generalized golden ratios of two and three dimensions (multiples of 2^32), shifted by the seed.

@@ -1,6 +1,6 @@
 // Pixels, rays and view space (right-handed, camera at the origin, looking down -z, normalized units).
 //
-// A `pixel` is a texel of the screen textures: a fine pixel of the region being drawn, counted from its lower left.
+// A `pixel` is a texel of the screen textures: a pixel of the region being drawn, counted from its lower left.
 
 // What `depth` holds where nothing was hit.
 const float BACKGROUND_DEPTH = 3.402823466e38;
@@ -26,5 +26,5 @@ vec2 pixelOf(vec3 position) {
     return (ray - view.rayOffset) / view.rayScale - vec2(view.origin);
 }
 
-// Width of an output pixel at a depth, in normalized units.
-float pixelFootprint(float depth) { return view.rayScale.x * float(view.raster) * (view.orthographic ? 1.0 : depth); }
+// Width of a pixel at a depth, in normalized units.
+float pixelFootprint(float depth) { return view.rayScale.x * (view.orthographic ? 1.0 : depth); }

@@ -34,7 +34,7 @@ ExitCode runPlan(const PlanOptions& options) {
         milliseconds = renderer.passMilliseconds();
     }
     ExplainedPlan plan = planConfig(config, loaded, frame, maxTextureSize);
-    if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all sub-frames of one frame");
+    if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all samples of one frame");
     const auto format = options.format == "json" ? PlanFormat::json : options.format == "dot" ? PlanFormat::dot : PlanFormat::text;
     fmt::print("{}", explain(plan.frame.graph, plan.frame.plan, format, plan.facts, milliseconds));
     return ExitCode::done;

@@ -56,7 +56,12 @@ std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
     return it->second;
 }
 
-ResourceId EffectBuilder::image(std::string name, Format format) { return graph_.add({std::move(name), format, view_.regionSize(), false}); }
+ResourceId EffectBuilder::image(std::string name, Format format) { return graph_.add({std::move(name), format, view_.region.size, false}); }
+
+ResourceId EffectBuilder::fineImage(std::string name, Format format) {
+    usesFineRaster_ = true;
+    return graph_.add({std::move(name), format, view_.region.size * view_.split.raster, false});
+}
 
 void EffectBuilder::add(Pass pass) {
     pass.slot = slot_;
@@ -74,6 +79,7 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.name = "shadow_maps";
     pass.slot = "shadow", pass.technique = "shadow_map";
     pass.kind = Pass::Kind::raster;
+    pass.rate = Pass::Rate::frame;
     pass.shader = "frame/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;

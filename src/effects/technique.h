@@ -45,6 +45,9 @@ public:
 
     /// An image as large as the region drawn.
     ResourceId image(std::string name, Format format);
+    /// An image on the fine raster, for passes that run once per sub-frame.
+    ResourceId fineImage(std::string name, Format format);
+    bool usesFineRaster() const { return usesFineRaster_; }
     ResourceId image(const Aov& aov) { return image(std::string(aov.name), aov.format); }
 
     /// Adds a pass; slot, technique and (unless given) shader are filled in.
@@ -66,6 +69,7 @@ private:
     std::optional<ResourceId> shadowMaps_;
     std::string slot_, technique_;
     int layer_ = 0;
+    bool usesFineRaster_ = false;
 };
 
 /// The uniform block `params` of a pass, from a constants struct and its table.

@@ -105,6 +105,16 @@ const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) cons
     return textures_.at(static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(resource.index)]));
 }
 
+/// Is it this run's turn to run the pass?
+static bool isDue(const Pass& pass, const View& view) {
+    switch (pass.rate) {
+        case Pass::Rate::frame: return view.sample == 0;
+        case Pass::Rate::subFrame: return view.sample % view.split.perSubFrame() == 0;
+        case Pass::Rate::sample: break;
+    }
+    return true;
+}
+
 void Executor::run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
@@ -123,6 +133,10 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
     stamp();
     for (const auto& planned : plan.passes) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+        if (!isDue(pass, view)) {
+            stamp();
+            continue;
+        }
         const gl::DebugGroup group(pass.name);
         const gl::Program& linked = program(graph, planned, block);
         linked.use();
@@ -193,7 +207,8 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
         // One virtual viewport for the whole picture, shifted by whole pixels: a part of a picture is that part of the whole.
-        gl::setViewport(-view.regionOrigin(), view.fineSize());
+        const int raster = pass.rate == Pass::Rate::sample ? 1 : view.split.raster;
+        gl::setViewport(-view.region.origin * raster, view.imageSize * raster);
         scene.draw();
     }
     for (const auto& drawing : pass.drawings) {

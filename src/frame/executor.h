@@ -24,7 +24,8 @@ public:
     /// Compiles every program that the plan needs, so that drawing times are drawing alone.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
-    /// Draws one sub-frame. With `measure`, adds each pass's GPU time to milliseconds().
+    /// Draws one sample of a frame; the first one of a frame or sub-frame also what its samples share. Samples must come in order. With
+    /// `measure`, adds each pass's GPU time to milliseconds().
     void run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, bool measure);
 
     /// A result of the last run that was asked for.

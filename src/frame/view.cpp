@@ -37,7 +37,8 @@ struct ViewConstants {
     glm::dvec2 rayScaleExact, rayOffsetExact;
     glm::vec2 rayScale, rayOffset;
     glm::ivec2 imageSize, origin, size;
-    int raster, firstSample;
+    glm::ivec2 placeOnRaster;
+    int raster, sample;
     unsigned seed;
     bool orthographic;
     float unit, near, far, clipFar;
@@ -50,11 +51,12 @@ constexpr Field kViewConstants[] = {
     field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
     field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
     field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
-    field<&ViewConstants::imageSize>("imageSize", {.unit = "fine pixels", .doc = "Of the whole picture."}),
-    field<&ViewConstants::origin>("origin", {.unit = "fine pixels", .doc = "Lower left of the region drawn, in the whole picture."}),
-    field<&ViewConstants::size>("size", {.unit = "fine pixels", .doc = "Of the region drawn: the size of every screen texture."}),
-    field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per output pixel, each way."}),
-    field<&ViewConstants::firstSample>("firstSample", {.doc = "Number of this sub-frame's first sample within an output pixel."}),
+    field<&ViewConstants::imageSize>("imageSize", {.unit = "pixels", .doc = "Of the whole picture."}),
+    field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the whole picture."}),
+    field<&ViewConstants::size>("size", {.unit = "pixels", .doc = "Of the region drawn: the size of every screen texture."}),
+    field<&ViewConstants::placeOnRaster>("placeOnRaster", {.unit = "fine pixels", .doc = "Which fine pixel of each pixel this sample looks at."}),
+    field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per pixel, each way, of what is drawn once for several samples."}),
+    field<&ViewConstants::sample>("sampleNumber", {.doc = "Number of the sample within a pixel."}),
     field<&ViewConstants::seed>("seed", {.doc = "Of all randomness in this frame."}),
     field<&ViewConstants::orthographic>("orthographic", {.doc = "Parallel rays."}),
     field<&ViewConstants::unit>("unit", {.doc = "Normalized units per scene unit: a power of two."}),
@@ -81,10 +83,10 @@ SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize) {
 }
 
 glm::dmat4 View::clipFromView() const {
-    const glm::dvec2 size(fineSize());
-    // ndc = 2·pixel/size − 1, and (pixel + jitter handled in rayOffset) = (xy − rayOffset)/rayScale, at the corner of the pixel: + 0.5 − 0.5.
+    const glm::dvec2 size(imageSize);
+    // ndc = 2·pixel/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the corner of the pixel: + 0.5 − 0.5.
     const glm::dvec2 scale = 2.0 / (rayScale * size);
-    const glm::dvec2 offset = -2.0 * rayOffset / (rayScale * size) - 1.0;
+    const glm::dvec2 offset = -2.0 * rasterOffset / (rayScale * size) - 1.0;
     glm::dmat4 m(0);
     m[0][0] = scale.x;
     m[1][1] = scale.y;
@@ -114,9 +116,8 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     View view;
     view.imageSize = request.imageSize;
     view.region = request.region.size.x > 0 ? request.region : PixelRect{{0, 0}, request.imageSize};
-    view.raster = request.split.raster;
-    view.subFrame = request.subFrame;
-    view.jitter = subFrameJitter(request.subFrame, request.split.subFrames);
+    view.split = request.split;
+    view.sample = request.sample;
     view.seed = request.seed;
     view.dpi = request.dpi;
     view.unit = scene.unit();
@@ -128,7 +129,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.eye = camera.position;
     view.viewFromRelative = toView * view.unit;
 
-    const glm::dvec2 size(view.fineSize());
+    const glm::dvec2 size(view.imageSize);
     double width;  // of the picture at unit depth, or in normalized units
     if (view.orthographic) {
         width = camera.orthographicHeight * view.unit * size.x / size.y;
@@ -139,7 +140,9 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     }
     view.rayScale = glm::dvec2(width / size.x);
     // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
-    view.rayOffset = view.rayScale * (view.jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
+    const double fine = 1.0 / view.split.raster;
+    view.rasterOffset = view.rayScale * (subFrameJitter(view.subFrame(), view.split.subFrames) * fine - size * 0.5 + camera.shift * std::max(size.x, size.y));
+    view.rayOffset = view.rasterOffset + view.rayScale * ((glm::dvec2(view.placeOnRaster()) + 0.5) * fine - 0.5);
 
     Bounds depths;
     for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
@@ -199,11 +202,12 @@ UniformBlock viewBlock(const View& view) {
     c.rayOffsetExact = view.rayOffset;
     c.rayScale = view.rayScale;
     c.rayOffset = view.rayOffset;
-    c.imageSize = view.fineSize();
-    c.origin = view.regionOrigin();
-    c.size = view.regionSize();
-    c.raster = view.raster;
-    c.firstSample = view.subFrame * view.raster * view.raster;
+    c.imageSize = view.imageSize;
+    c.origin = view.region.origin;
+    c.size = view.region.size;
+    c.placeOnRaster = view.placeOnRaster();
+    c.raster = view.split.raster;
+    c.sample = view.sample;
     c.seed = view.seed;
     c.orthographic = view.orthographic;
     c.unit = static_cast<float>(view.unit);

@@ -23,13 +23,17 @@ struct SceneInfo {
     double unit() const;
 };
 
-/// How n samples are split: n = raster² · subFrames.
+/// How n samples are split: n = raster² · subFrames. A sub-frame's triangles are drawn once, on a raster finer than the picture; every pass
+/// after that runs once per sample, at the picture's own size, on every raster-th fine pixel.
 struct SampleSplit {
     int raster = 1;
     int subFrames = 1;
+
+    int perSubFrame() const { return raster * raster; }
+    int samples() const { return perSubFrame() * subFrames; }
 };
 
-/// As fine a raster as divides n, fits the driver, and keeps a sub-frame below 2^24 pixels: triangles are then drawn least often.
+/// As fine a raster as divides n, fits the driver, and keeps its fine pixels below 2^24: triangles are then drawn least often.
 SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
 
 struct PixelRect {
@@ -40,9 +44,8 @@ struct PixelRect {
 struct View {
     glm::ivec2 imageSize{0};        ///< of the whole picture, in output pixels
     PixelRect region;               ///< the part that is drawn, in output pixels
-    int raster = 1;                 ///< fine pixels per output pixel, each way
-    int subFrame = 0;
-    glm::dvec2 jitter{0};           ///< added to fine pixel centres
+    SampleSplit split;
+    int sample = 0;                 ///< of split.samples()
     unsigned seed = 0;
 
     bool orthographic = false;
@@ -50,33 +53,34 @@ struct View {
     /// World directions and offsets from the eye in scene units → view space in normalized units. Subtracting the eye first, in double,
     /// is what keeps scenes far from the origin exact: there is no matrix with a large translation in it.
     glm::dmat3 viewFromRelative{1};
-    /// Where the ray of fine pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
+    /// Where the sample's ray through pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
     /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
     glm::dvec2 rayScale{1}, rayOffset{0};
+    /// The same of the sub-frame as a whole: rayOffset without the sample's place on the fine raster.
+    glm::dvec2 rasterOffset{0};
     double near = 0, far = 0;       ///< normalized units; only paper modes depend on `far`
     double clipFar = 1;             ///< normalized units: beyond everything; orthographic depth is linear up to here
     double unit = 1;                ///< normalized units per scene unit
     double diagonal = 1;            ///< scene units
     double dpi = 96;
 
-    glm::ivec2 fineSize() const { return imageSize * raster; }
-    glm::ivec2 regionOrigin() const { return region.origin * raster; }
-    glm::ivec2 regionSize() const { return region.size * raster; }
-    /// Clip space from view space for the whole picture: reversed depth, infinitely far (perspective) or linear (orthographic).
+    int subFrame() const { return sample / split.perSubFrame(); }
+    /// Which fine pixel of each pixel the sample looks at.
+    glm::ivec2 placeOnRaster() const { return {sample % split.perSubFrame() % split.raster, sample % split.perSubFrame() / split.raster}; }
+    /// Clip space from view space for the whole picture, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
     glm::dmat4 worldFromView() const;
     /// A length of a parameter in normalized units.
     double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
-    /// A width in the picture in fine pixels.
-    double finePixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi) * raster; }
+    double pixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi); }
 };
 
 struct ViewRequest {
     glm::ivec2 imageSize{1280, 720};
     PixelRect region;               ///< empty: everything
     SampleSplit split;
-    int subFrame = 0;
+    int sample = 0;
     unsigned seed = 0;
     double dpi = 96;
 };

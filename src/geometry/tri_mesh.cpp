@@ -169,6 +169,39 @@ glm::dvec3 choosePivot(const PolyMesh& mesh) {
 
 }  // namespace
 
+void numberByLastVertex(TriMesh& mesh) {
+    constexpr std::uint32_t none = ~0u;
+    const std::size_t count = mesh.triangleCount();
+    std::vector<std::uint32_t> place(mesh.positions.size(), none);   // the first new vertex that holds each position
+    std::vector<glm::vec3> positions(count);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        std::uint32_t* corner = mesh.indices.data() + std::size_t{3} * t;
+        // A corner whose position no triangle has yet taken need not be repeated.
+        std::size_t last = 2;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (place[corner[k]] == none) last = k;
+        const auto turn = [&](std::vector<std::uint32_t>& indices) {
+            if (!indices.empty()) std::rotate(indices.begin() + std::ptrdiff_t{3} * t, indices.begin() + std::ptrdiff_t{3} * t + static_cast<std::ptrdiff_t>((last + 1) % 3), indices.begin() + std::ptrdiff_t{3} * t + 3);
+        };
+        turn(mesh.indices), turn(mesh.normalIndices), turn(mesh.uvIndices);
+        positions[t] = mesh.positions[corner[2]];
+        if (place[corner[2]] == none) place[corner[2]] = t;
+    }
+    for (std::uint32_t t = 0; t < count; ++t) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            std::uint32_t& index = mesh.indices[std::size_t{3} * t + k];
+            const std::uint32_t old = index;
+            if (place[old] == none) {
+                place[old] = static_cast<std::uint32_t>(positions.size());
+                positions.push_back(mesh.positions[old]);
+            }
+            index = place[old];
+        }
+        mesh.indices[std::size_t{3} * t + 2] = t;
+    }
+    mesh.positions = std::move(positions);
+}
+
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
     TriMesh out;
     out.pivot = choosePivot(mesh);
@@ -236,6 +269,7 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
     if (ownUvs) out.uvIndices.resize(3 * kept);
     if (wantMaterials) out.triangleMaterial.resize(kept);
     if (wantParts) out.trianglePart.resize(kept);
+    if (!needs.unified) numberByLastVertex(out);
     return out;
 }
 

@@ -35,7 +35,8 @@ struct TriMesh {
     std::vector<glm::vec3> positions;          ///< mesh units
     std::vector<glm::vec3> normals;            ///< unit length, or zero where the surface has none; empty unless asked for
     std::vector<glm::vec2> uvs;                ///< empty unless asked for
-    std::vector<std::uint32_t> indices;        ///< three positions per triangle, counter-clockwise from outside
+    std::vector<std::uint32_t> indices;        ///< three positions per triangle, counter-clockwise from outside. Unless unified, the last one
+                                               ///< of triangle t is t: rasterizers hand its vertex's number on as the triangle's
     std::vector<std::uint32_t> normalIndices;  ///< three normals per triangle; empty when unified, or without normals
     std::vector<std::uint32_t> uvIndices;      ///< three uvs per triangle; empty when unified, or without uvs
     std::vector<std::uint32_t> triangleMaterial;  ///< index into PolyMesh::materialNames; empty = all 0
@@ -51,6 +52,10 @@ inline constexpr double kSmoothAngleDegrees = 30;
 /// normals are made: by smoothing group where the file has them, else smooth across edges flatter than kSmoothAngleDegrees.
 /// Zero-area triangles are dropped. Parallel; the result does not depend on threads.
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs);
+
+/// Turns the corners of triangles around, and orders and repeats positions, so that indices[3·t + 2] == t. Drawing programs number triangles
+/// themselves too (gl_PrimitiveID), but software renderers are slow at it.
+void numberByLastVertex(TriMesh& mesh);
 
 /// Corner indices (0 … n−1) of the triangles that fill a polygon; n−2 of them unless it crosses itself.
 std::vector<std::uint32_t> triangulatePolygon(const std::vector<glm::dvec3>& polygon);

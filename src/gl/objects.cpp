@@ -181,6 +181,7 @@ Program::Program(std::span<const ShaderStage> stages, const std::string& name) {
         getLength(object, GL_INFO_LOG_LENGTH, &length);
         std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
         getLog(object, length, nullptr, text.data());
+        text.resize(std::strlen(text.c_str()));
         return text;
     };
     for (const auto& stage : stages) {

@@ -34,7 +34,7 @@ public:
             std::string time;
             if (!ms_.empty()) time = fmt::format("{:9.2f} ms", ms_[i]), total += ms_[i];
             out += fmt::format("{:>3}  {:<24} {:<11} {:<16}{}\n", i + 1, p.name, p.slot, p.technique, time);
-            out += fmt::format("       {} → {}{}\n", p.reads.empty() ? "the scene" : joined(reads(p), ", "), joined(writes(plan_.passes[i], true), ", "), p.note.empty() ? "" : "   (" + p.note + ")");
+            out += fmt::format("       {} → {}{}\n", p.reads.empty() ? "the scene" : joined(reads(p), ", "), joined(writes(plan_.passes[i], true), ", "), "   (" + joined(remarks(p), ", ") + ")");
             out += fmt::format("       because {}\n", plan_.passes[i].reason);
             if (const auto dropped = writes(plan_.passes[i], false); !dropped.empty()) out += fmt::format("       not made, since nothing reads it: {}\n", joined(dropped, ", "));
         }
@@ -112,9 +112,22 @@ private:
             if (has(plan_.sceneData, flag)) names.emplace_back(text);
         return names;
     }
+    static std::string_view rate(const Pass& p) {
+        switch (p.rate) {
+            case Pass::Rate::frame: return "once per frame";
+            case Pass::Rate::subFrame: return "once per sub-frame";
+            case Pass::Rate::sample: break;
+        }
+        return "every sample";
+    }
+    static std::vector<std::string> remarks(const Pass& p) {
+        std::vector<std::string> all{std::string(rate(p))};
+        if (!p.note.empty()) all.push_back(p.note);
+        return all;
+    }
     std::string jsonPass(const Pass& p, bool culled, const std::string& reason, const std::vector<std::string>& written, const std::vector<std::string>& dropped, std::size_t i) const {
-        return fmt::format("    {{\"name\": {}, \"slot\": {}, \"technique\": {}, \"culled\": {}, \"reason\": {}, \"reads\": {}, \"writes\": {}, \"not_made\": {}, \"note\": {}{}}}", jsonText(p.name), jsonText(p.slot),
-                           jsonText(p.technique), culled, jsonText(reason), jsonList(reads(p)), jsonList(written), jsonList(dropped), jsonText(p.note),
+        return fmt::format("    {{\"name\": {}, \"slot\": {}, \"technique\": {}, \"culled\": {}, \"reason\": {}, \"reads\": {}, \"writes\": {}, \"not_made\": {}, \"runs\": {}, \"note\": {}{}}}", jsonText(p.name), jsonText(p.slot),
+                           jsonText(p.technique), culled, jsonText(reason), jsonList(reads(p)), jsonList(written), jsonList(dropped), jsonText(std::string(rate(p))), jsonText(p.note),
                            culled || ms_.empty() ? "" : fmt::format(", \"milliseconds\": {:.3f}", ms_[i]));
     }
 

@@ -27,7 +27,7 @@ struct Resource {
     std::string name;
     Format format = Format::r32f;
     glm::ivec2 size{0};
-    bool persistent = false;    ///< keeps its content from one sub-frame to the next
+    bool persistent = false;    ///< keeps its content from one run to the next
 };
 
 /// Data of the scene that shaders read.
@@ -56,10 +56,13 @@ struct Drawing {
 
 struct Pass {
     enum class Kind { compute, raster };
+    /// How often it runs. What a pass makes that does not run for every sample is kept until it runs again.
+    enum class Rate { sample, subFrame, frame };
 
     std::string name;
     std::string slot, technique;
     Kind kind = Kind::compute;
+    Rate rate = Rate::sample;
     std::string shader;         ///< path below shaders/ without extension
     std::vector<std::pair<std::string, std::string>> defines;
     std::vector<Read> reads;

@@ -95,15 +95,17 @@ private:
                 if (!plan_.passes[i].writes[w]) continue;
                 const std::size_t r = index(pass.writes[w].resource);
                 const Resource& resource = graph_.resources[r];
+                // A depth buffer that only its own pass uses need not be kept, however seldom the pass runs.
+                const bool persistent = resource.persistent || (pass.rate != Pass::Rate::sample && lastUse[r] > static_cast<int>(i));
                 std::size_t slot = 0;
                 for (; slot < plan_.textures.size(); ++slot) {
                     const auto& texture = plan_.textures[slot];
-                    if (!resource.persistent && !texture.persistent && texture.format == resource.format && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i)) break;
+                    if (!persistent && !texture.persistent && texture.format == resource.format && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i)) break;
                 }
-                if (slot == plan_.textures.size()) plan_.textures.push_back({resource.format, resource.size, resource.persistent, {}}), busyUntil.push_back(0);
+                if (slot == plan_.textures.size()) plan_.textures.push_back({resource.format, resource.size, persistent, {}}), busyUntil.push_back(0);
                 plan_.textures[slot].resources.push_back(static_cast<int>(r));
                 plan_.textureOf[r] = static_cast<int>(slot);
-                busyUntil[slot] = resource.persistent ? kForever : lastUse[r];
+                busyUntil[slot] = persistent ? kForever : lastUse[r];
             }
         }
     }

@@ -21,16 +21,16 @@ void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) 
 }
 
 /// The mean of an AOV over the samples of each pixel, as an image of output pixels.
-ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view, const SampleSplit& split) {
+ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
     const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size, true});
-    const int samples = split.raster * split.raster * split.subFrames;
+    const int samples = view.split.samples();
     Pass pass;
     pass.name = fmt::format("accumulate_{}", aov.name);
     pass.shader = "frame/accumulate";
     pass.reads = {{"source", builder.read(aov)}};
     pass.writes = {{"sum", sum, SceneData::none, glm::vec4(0), true}};
-    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.subFrame == 0, view.subFrame + 1 == split.subFrames, 1.0f / static_cast<float>(samples)});
+    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.sample == 0, view.sample + 1 == samples, 1.0f / static_cast<float>(samples)});
     pass.note = fmt::format("{} samples", samples);
     builder.beginTechnique("samples", "accumulate");
     builder.add(std::move(pass));
@@ -46,7 +46,7 @@ std::vector<const Aov*> chooseAovs(std::span<const Aov* const> aovs, bool averag
     return chosen;
 }
 
-FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, const SampleSplit& split, std::span<const Aov* const> aovs, double frame) {
+FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame) {
     FramePlan result;
     EffectBuilder builder(result.graph, view, facts);
     build(builder, config.geometry, frame);
@@ -63,14 +63,15 @@ FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const V
     if (config.edges.empty()) result.graph.absent.emplace_back("edges");
     build(builder, config.composite, frame);
 
-    const bool sums = split.raster * split.subFrames > 1;
+    const bool sums = view.split.samples() > 1;
     for (const Aov* aov : aovs) {
         if (!builder.find(*aov))
             throw Error(ExitCode::usage, {config.file.string()}, fmt::format("the AOV '{}' is asked for, but at frame {} nothing makes it", aov->name, frame), "raise the opacity of a line layer, or leave the AOV out");
-        const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view, split) : builder.read(*aov);
+        const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view) : builder.read(*aov);
         result.wanted.push_back({std::string(aov->name), image});
         result.aovs.push_back(aov);
     }
+    result.usesFineRaster = builder.usesFineRaster();
     result.plan = compile(result.graph, result.wanted);
     return result;
 }

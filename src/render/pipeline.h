@@ -1,4 +1,4 @@
-// From a config to the graph of one sub-frame, and what is wanted of it.
+// From a config to the graph of one sample of a frame, and what is wanted of it.
 #pragma once
 
 #include "graph/graph.h"
@@ -11,10 +11,11 @@ struct FramePlan {
     std::vector<Wanted> wanted;         ///< one per AOV, in the order of `aovs`
     std::vector<const Aov*> aovs;
     Plan plan;
+    bool usesFineRaster = false;        ///< something is drawn once for several samples
 };
 
-/// `aovs`: what is wanted of this sub-frame. With several samples the averaged ones are summed over sub-frames, and the result is the sum.
-FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, const SampleSplit& split, std::span<const Aov* const> aovs, double frame);
+/// `aovs`: what is wanted. With several samples the averaged ones are summed over them, and the result is their mean.
+FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame);
 
 /// The AOVs that are averaged over a pixel's samples, or those that are taken at its centre.
 std::vector<const Aov*> chooseAovs(std::span<const Aov* const> aovs, bool averaged);

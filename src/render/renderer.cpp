@@ -132,12 +132,19 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
     const auto centre = chooseAovs(config.output.aovs, false);
     // Without anything to average one look at the pixel's centre is all there is to do.
     plans.split = averaged.empty() ? SampleSplit{} : splitSamples(config.image.samples, config.image.size, maxTextureSize);
-    const bool together = plans.split.raster * plans.split.subFrames == 1;
-    plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame));
-    plans.averaged = planFrame(config, facts, plans.averagedView, plans.split, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
+    const bool together = plans.split.samples() == 1;
+    const auto plan = [&] {
+        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame));
+        plans.averaged = planFrame(config, facts, plans.averagedView, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
+    };
+    plan();
+    if (plans.split.raster > 1 && !plans.averaged.usesFineRaster) {
+        plans.split = {1, plans.split.samples()};
+        plan();
+    }
     if (!together && !centre.empty()) {
         plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame));
-        plans.centre = planFrame(config, facts, plans.centreView, {}, centre, frame);
+        plans.centre = planFrame(config, facts, plans.centreView, centre, frame);
     }
     return plans;
 }
@@ -157,7 +164,7 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
     fact("config", config.file.string());
     fact("scene", loaded.scene.file);
     fact("picture", fmt::format("{}×{} pixels, camera '{}'", config.image.size.x, config.image.size.y, scene.camera.name));
-    fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.raster * split.raster * split.subFrames, split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
+    fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.samples(), split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
     fact("accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)]));
     fact("objects", fmt::format("{} instances, {} faces, {} lights", scene.instances.size(), faces, scene.lights.size()));
     fact("diagonal", fmt::format("{} scene units at frame {}", numberText(static_cast<float>(scene.info.diagonal())), loaded.scene.firstFrame()));
@@ -214,13 +221,13 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     watch.lap("programs");
 
     executor_.resetMeasurements();
-    for (int s = 0; s < plans.split.subFrames; ++s) {
+    for (int sample = 0; sample < plans.split.samples(); ++sample) {
         ViewRequest request = viewRequest(config, plans.split, frame);
-        request.subFrame = s;
+        request.sample = sample;
         const View view = makeView(scene.camera, scene.info, request);
         gpu.setView(scene, view);
-        const FramePlan sub = planFrame(config, facts, view, plans.split, plans.averaged.aovs, frame);
-        executor_.run(sub.graph, sub.plan, view, gpu, options.measure);
+        const FramePlan one = planFrame(config, facts, view, plans.averaged.aovs, frame);
+        executor_.run(one.graph, one.plan, view, gpu, options.measure);
     }
     gl::finish();
     watch.lap("draw");

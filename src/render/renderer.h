@@ -1,4 +1,4 @@
-// Draws configs into pictures: loads, plans, draws every sub-frame, reads back, and writes.
+// Draws configs into pictures: loads, plans, draws every sample, reads back, and writes.
 #pragma once
 
 #include "frame/executor.h"

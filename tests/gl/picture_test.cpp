@@ -68,11 +68,11 @@ TEST(Picture, samplesAverageToTheSamePicture) {
 TEST(Picture, sampleSplitIsExactAndFits) {
     for (int n = 1; n <= 64; ++n) {
         const SampleSplit split = splitSamples(n, {1280, 720}, 16384);
-        EXPECT_EQ(split.raster * split.raster * split.subFrames, n);
+        EXPECT_EQ(split.samples(), n);
     }
     EXPECT_EQ(splitSamples(16, {1280, 720}, 16384).raster, 4);
     EXPECT_EQ(splitSamples(16, {16000, 720}, 16384).raster, 1) << "beyond the driver";
-    EXPECT_EQ(splitSamples(4, {8000, 8000}, 65536).raster, 1) << "beyond the memory that one sub-frame may take";
+    EXPECT_EQ(splitSamples(4, {8000, 8000}, 65536).raster, 1) << "beyond the memory that the fine raster may take";
 }
 
 TEST(Picture, dataIsTakenAtPixelCentres) {

@@ -150,6 +150,27 @@ TEST(Outline, aStepIsDrawnIfItIsHighEnough) {
     EXPECT_NEAR(lineLength(0.41), 160, 4);
 }
 
+TEST(Outline, isAsWideAsAskedForInEveryDirection) {
+    // One straight edge across the picture, the edge of a square turned about the view axis: the lines' area over their length.
+    const double pi = std::acos(-1.0);
+    for (const double turn : {0.0, 20.0, 45.0, 70.0, 90.0}) {
+        const LoadedScene scene = makeScene("[[mesh]]\nname = 'q'\nfile = 'q.obj'\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 2\n" +
+                                                fmt::format("[[instance]]\nmesh = 'q'\nrotate = [0, 0, {}]\n", turn),
+                                            {{"q.obj", "v 0 -9 0\nv 18 -9 0\nv 18 9 0\nv 0 9 0\nf 1 2 3 4\n"}});
+        for (const double width : {0.5, 1.0, 2.0, 3.5, 9.0, 16.0})
+            for (const int samples : {1, 9}) {
+                const Picture p = draw(makeConfig(fmt::format("[image]\nsize = [101, 101]\nsamples = {}\n[[edges]]\ntechnique = 'depth_normal'\nwidth = '{}px'\n[output]\naovs = ['edges']\n", samples, width)), scene);
+                double area = 0;
+                for (std::size_t i = 3; i < p.aov("edges").pixels.size(); i += 4) area += static_cast<double>(p.aov("edges").pixels[i]);
+                const double angle = turn * pi / 180, length = 101 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+                // Along a pixel's side the width is right to the rounding of half floats. At a slant the line follows the sides of pixels,
+                // and a wide one reaches as far as its outermost steps: the sides stand out by up to half a pixel, the steps seen at a slant.
+                const bool straight = turn == 0 || turn == 90;
+                EXPECT_NEAR(area / length, width, straight ? 0.01 : 0.9) << turn << " degrees, " << samples << " samples";
+            }
+    }
+}
+
 TEST(Toon, bandsGiveAsManyValues) {
     const LoadedScene scene = makeScene("[[mesh]]\nname = 's'\nfile = 's.obj'\n[[light]]\ndirection = [-1, -1, -1]\n" + cameraToml({0, 0, 4}, {0, 0, 0}, "fov = 35"), {{"s.obj", sphereObj(1, 128)}});
     for (int bands = 2; bands <= 12; ++bands) {

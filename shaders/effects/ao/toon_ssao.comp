@@ -45,7 +45,7 @@ void main() {
 #ifdef RADIUS_IN_IMAGE
         vec2 at = vec2(pixel) + 0.5 + offset.xy * params.radiusPixels;
         vec3 point = position;
-        float reach = params.radiusPixels * pixelFootprint(centre) / float(view.raster);
+        float reach = params.radiusPixels * pixelFootprint(centre);
 #else
         vec3 point = position + offset * params.radius;
         // A point behind the eye falls on no pixel.

@@ -1,9 +1,7 @@
-// Lines where depth or normal jump between a pixel and one of eight others half a line width away.
+// Finds where depth or normal jump between a pixel and its neighbours to the right and above; lib/stroke.glsl says how that is written.
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
-#include "lib/random.glsl"
-
-const vec2 DIRECTIONS[8] = vec2[](vec2(-1, -1), vec2(0, -1), vec2(1, -1), vec2(-1, 0), vec2(1, 0), vec2(-1, 1), vec2(0, 1), vec2(1, 1));
+#include "lib/stroke.glsl"
 
 #ifdef PROJECTED_DEPTH
 // Standard depth: 0 at near, 1 at far.
@@ -50,16 +48,7 @@ void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     Surface here = surfaceAt(pixel);
-    // Neighbours are whole pixels: a reach between two of them is reached on average over the samples.
-    float reach = floor(params.reach + evenlySpread(pixel).x);
-    bool line = false;
-    for (int i = 0; i < 8; ++i) {
-        ivec2 other = clamp(pixel + ivec2(DIRECTIONS[i] * reach), ivec2(0), view.size - 1);
-        line = isLine(here, surfaceAt(other)) || line;
-    }
-    vec4 color = line ? params.color : vec4(0);
-#ifdef LAYERS_BELOW
-    color += texelFetch(layersBelow, pixel, 0) * (1.0 - color.a);
-#endif
-    write_result(color);
+    bool right = isLine(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1)));
+    bool above = isLine(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
+    write_result(vec4(encodeSides(right, above)));
 }

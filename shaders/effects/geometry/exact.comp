@@ -75,7 +75,7 @@ void writeBackground() {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    uvec2 id = texelFetch(visibility, pixel, 0).xy;
+    uvec2 id = texelFetch(visibility, pixel * view.raster + view.placeOnRaster, 0).xy;
     if (id.x == 0u) {
         writeBackground();
         return;
@@ -144,10 +144,11 @@ void main() {
 #ifdef TEXTURED
     ivec3 uvCorners = int(instance.firstUv) + ivec3(texelFetch(triangleUvs, int(instance.firstTriangle + triangle)).xyz);
     vec2 uv = uvAt(uvCorners, weights);
-    // How uv changes across the pixel, on the triangle's whole plane.
+    // How uv changes across the part of the pixel that the sample stands for, on the triangle's whole plane.
+    double part = 1.0lf / double(view.raster);
     vec2 here = uvAt(uvCorners, hit.weights);
-    vec2 uvX = uvAt(uvCorners, intersect(s, centre + dvec2(1.0lf, 0.0lf)).weights) - here;
-    vec2 uvY = uvAt(uvCorners, intersect(s, centre + dvec2(0.0lf, 1.0lf)).weights) - here;
+    vec2 uvX = uvAt(uvCorners, intersect(s, centre + dvec2(part, 0.0lf)).weights) - here;
+    vec2 uvY = uvAt(uvCorners, intersect(s, centre + dvec2(0.0lf, part)).weights) - here;
     if (look.levels > 0) look.color *= sampleTexture(look, uv, uvX, uvY).rgb;
 #endif
     write_albedo(vec4(look.color, 1));

@@ -1,5 +1,5 @@
 // Writes only which triangle is seen; exact.comp finds out everything else, once per pixel that is seen.
 
-flat in uint instanceNumber;
+flat in uvec2 seen;
 
-void main() { visibility = uvec2(instanceNumber, uint(gl_PrimitiveID)); }
+void main() { visibility = seen; }

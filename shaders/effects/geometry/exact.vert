@@ -5,9 +5,10 @@
 layout(location = 0) in vec3 meshPoint;
 layout(location = 1) in uint instance;
 
-flat out uint instanceNumber;
+// Instance, counted from 1, and triangle. The provoking vertex, the last one, brings both: see numberByLastVertex in tri_mesh.h.
+flat out uvec2 seen;
 
 void main() {
     gl_Position = snapToGrid(view.clipFromView * vec4(viewFromMesh(instance, meshPoint), 1.0));
-    instanceNumber = instance + 1u;
+    seen = uvec2(instance + 1u, uint(gl_VertexID) - firstVertexOf(instance));
 }

@@ -65,7 +65,7 @@ struct Constants {
 constexpr Field kConstants[] = {
     field<&Constants::kernelPoints>("kernelPoints", {.doc = "Points in the unit ball, in xyz."}),
     field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Reach in the scene."}),
-    field<&Constants::radiusPixels>("radiusPixels", {.unit = "fine pixels", .doc = "Reach in the picture, for radius_in = \"image\"."}),
+    field<&Constants::radiusPixels>("radiusPixels", {.unit = "pixels", .doc = "Reach in the picture, for radius_in = \"image\"."}),
     field<&Constants::deadZone>("deadZone", {.doc = "Counts below this are no occlusion."}),
     field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
 };
@@ -74,7 +74,7 @@ constexpr Field kConstants[] = {
 Constants derive(const Params& params, const View& view) {
     Constants c;
     c.radius = static_cast<float>(view.normalized(params.radius));
-    c.radiusPixels = params.imageRadius * static_cast<float>(view.fineSize().x);
+    c.radiusPixels = params.imageRadius * static_cast<float>(view.imageSize.x);
     c.deadZone = params.deadZone;
     c.strength = params.strength;
     const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));

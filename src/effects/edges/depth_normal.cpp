@@ -1,13 +1,14 @@
 // Lines where depth or normal jump: pass 5 of Lajzer & Nottingham.
 //
-// Each pixel is compared with eight others half a line width away. Reads depth and normal; writes edges: the lines in their colour,
-// premultiplied, over those of the layers before.
+// Each pixel is compared with its neighbours; a line of the wanted width is drawn along the sides between those that differ. The paper
+// compares a pixel with eight others instead, which draws the same line two pixels wide and no other width. Reads depth and normal;
+// writes edges: the lines in their colour, premultiplied, over those of the layers before.
 //
-// Paper mode: |Δdepth| > 0.05·(1 − depth) on the standard post-projection depth, N·N' < 0.95, one pixel away.
+// Paper mode: |Δdepth| > 0.05·(1 − depth) on the standard post-projection depth, N·N' < 0.95.
 // Default mode: distance to the other's tangent plane, the larger of both ways round, in multiples of the pixel's footprint (a plane seen
 // at any tilt has no false line), and the angle between the normals.
 
-#include "effects/technique.h"
+#include "effects/edges/stroke.h"
 
 #include <cmath>
 
@@ -39,12 +40,9 @@ constexpr Field kParams[] = {
 };
 
 struct Constants {
-    glm::vec4 color{0};
-    float reach = 1, step = 4, cosine = 0.95f, depthThreshold = 0.05f, near = 0.1f, far = 100;
+    float step = 4, cosine = 0.95f, depthThreshold = 0.05f, near = 0.1f, far = 100;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::color>("color", {.doc = "Linear, premultiplied by the opacity."}),
-    field<&Constants::reach>("reach", {.unit = "fine pixels", .doc = "Distance of the pixels compared: half the line's width."}),
     field<&Constants::step>("step", {.unit = "pixel footprints", .doc = "Smallest step that is drawn."}),
     field<&Constants::cosine>("cosine", {.doc = "Normals with a smaller cosine between them make a line."}),
     field<&Constants::depthThreshold>("depthThreshold", {.doc = "Factor on (1 - projected depth)."}),
@@ -54,8 +52,6 @@ constexpr Field kConstants[] = {
 
 Constants derive(const Params& params, const View& view) {
     Constants c;
-    c.color = glm::vec4(params.color.r, params.color.g, params.color.b, 1) * params.opacity;
-    c.reach = static_cast<float>(view.finePixels(params.width) / 2);
     c.step = params.step;
     c.cosine = static_cast<float>(std::cos(glm::radians(static_cast<double>(params.creaseAngle))));
     c.depthThreshold = params.depthThreshold;
@@ -67,22 +63,18 @@ Constants derive(const Params& params, const View& view) {
 }
 
 void build(EffectBuilder& graph, const Params& params) {
-    if (params.opacity <= 0) return;
-    const ResourceId result = graph.image("edges" + graph.layerSuffix(), aov::edges.format);
+    if (params.opacity <= 0 || params.width.amount <= 0) return;
+    const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r8);
     Pass pass;
     pass.name = "depth_normal" + graph.layerSuffix();
     pass.reads = {{"depth", graph.read(aov::depth)}, {"normal", graph.read(aov::normal)}};
     if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
     else pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
-    if (const auto below = graph.find(aov::edges)) {
-        pass.reads.push_back({"layersBelow", *below});
-        pass.defines.emplace_back("LAYERS_BELOW", "");
-    }
-    pass.writes = {{"result", result}};
+    pass.writes = {{"result", sides}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
-    pass.note = "8 neighbours per pixel";
+    pass.note = "2 neighbours per pixel";
     graph.add(std::move(pass));
-    graph.publish(aov::edges, result);
+    strokeLines(graph, sides, {params.width, params.color, params.opacity});
 }
 
 const Technique kDepthNormal{"edges", "depth_normal", "Lines where depth or normal jump (Lajzer & Nottingham).", kParams, build,

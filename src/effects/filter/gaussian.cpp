@@ -1,6 +1,6 @@
 // A 3×3 Gaussian, several times over: pass 3 of Lajzer & Nottingham.
 //
-// Reads and writes ambient_occlusion. Each application is a pass of its own. Steps are output pixels at every raster.
+// Reads and writes ambient_occlusion. Each application is a pass of its own.
 
 #include "effects/technique.h"
 

@@ -9,11 +9,12 @@ namespace limn {
 namespace geometry_exact {
 
 void build(EffectBuilder& graph, const NoParams&) {
-    const ResourceId visibility = graph.image("visibility", Format::rg32ui);
-    const ResourceId zBuffer = graph.image("z_buffer", Format::depth32f);
+    const ResourceId visibility = graph.fineImage("visibility", Format::rg32ui);
+    const ResourceId zBuffer = graph.fineImage("z_buffer", Format::depth32f);
     Pass raster;
     raster.name = "visibility";
     raster.kind = Pass::Kind::raster;
+    raster.rate = Pass::Rate::subFrame;
     raster.writes = {{"visibility", visibility}, {"zBuffer", zBuffer}};
     raster.needs = SceneData::positions;
     raster.note = "triangle ids only";
@@ -25,11 +26,11 @@ void build(EffectBuilder& graph, const NoParams&) {
     resolve.writes = publishSurfaces(graph);
     resolve.defines = surfaceDefines(graph);
     resolve.needs = SceneData::positions;
-    resolve.note = "analytic, once per visible pixel";
+    resolve.note = "analytic, once per visible sample";
     graph.add(std::move(resolve));
 }
 
-const Technique kExact{"geometry", "exact", "Triangle ids at raster time, then exact evaluation of just what is read, once per visible pixel.", {}, build};
+const Technique kExact{"geometry", "exact", "Triangle ids at raster time, then exact evaluation of just what is read, once per visible sample.", {}, build};
 
 }  // namespace geometry_exact
 }  // namespace limn

@@ -68,12 +68,12 @@ struct BandConstants {
 };
 constexpr Field kBandConstants[] = {
     field<&BandConstants::bands>("bands", {.doc = "rgb: factor on the object's colour; a: intensity at which the band begins."}),
-    field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "fine pixels", .doc = "Width of the transition between bands."}),
+    field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "pixels", .doc = "Width of the transition between bands."}),
 };
 
-BandConstants deriveBands(const Params& params, const View& view) {
+BandConstants deriveBands(const Params& params) {
     BandConstants c;
-    c.edgeSoftness = params.edgeSoftness * static_cast<float>(view.raster);
+    c.edgeSoftness = params.edgeSoftness;
     if (params.space == ToonSpace::display) {
         // floor(n·I)/n without an upper end: the levels above 1 clip when the colour is encoded.
         c.count = 4 * params.bands;   // up to four times the full colour
@@ -128,7 +128,7 @@ void build(EffectBuilder& graph, const Params& params) {
     if (params.space == ToonSpace::display) bands.defines.emplace_back("DISPLAY_ENCODED", "");
     if (colored) bands.defines.emplace_back("COLORED_LIGHT", "");
     bands.writes = {{"result", result}};
-    const BandConstants constants = deriveBands(params, graph.view());
+    const BandConstants constants = deriveBands(params);
     bands.params = paramsBlock(kBandConstants, constants);
     bands.defines.emplace_back("BAND_COUNT", std::to_string(constants.count));
     bands.note = std::to_string(params.ramp.empty() ? params.bands : constants.count) + " bands";
