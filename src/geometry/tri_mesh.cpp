@@ -156,7 +156,8 @@ bool allZero(const std::vector<std::uint32_t>& values) {
     return std::all_of(values.begin(), values.end(), [](auto v) { return v == 0; });
 }
 
-/// The middle of the vertices that faces use, rounded to a coarse grid so that pivots of moved copies differ by exactly the move.
+}  // namespace
+
 glm::dvec3 choosePivot(const PolyMesh& mesh) {
     Bounds bounds;
     for (const auto v : mesh.cornerPosition) bounds.add(mesh.positions[v]);
@@ -166,8 +167,6 @@ glm::dvec3 choosePivot(const PolyMesh& mesh) {
     // Not round(): its halves go away from zero, which is not the same place for a moved copy.
     return glm::floor(bounds.centre() / grid + 0.5) * grid;
 }
-
-}  // namespace
 
 void numberByLastVertex(TriMesh& mesh) {
     constexpr std::uint32_t none = ~0u;
@@ -203,8 +202,14 @@ void numberByLastVertex(TriMesh& mesh) {
 }
 
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
+    TriMesh out = triangulateMesh(mesh, needs, choosePivot(mesh));
+    if (!needs.unified) numberByLastVertex(out);
+    return out;
+}
+
+TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm::dvec3& pivot) {
     TriMesh out;
-    out.pivot = choosePivot(mesh);
+    out.pivot = pivot;
     const bool wantMaterials = !allZero(mesh.faceMaterial), wantParts = !allZero(mesh.facePart);
     const Triangles triangles = triangulate(mesh, wantMaterials || wantParts);
 
@@ -269,7 +274,6 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
     if (ownUvs) out.uvIndices.resize(3 * kept);
     if (wantMaterials) out.triangleMaterial.resize(kept);
     if (wantParts) out.trianglePart.resize(kept);
-    if (!needs.unified) numberByLastVertex(out);
     return out;
 }
 

@@ -53,6 +53,11 @@ inline constexpr double kSmoothAngleDegrees = 30;
 /// Zero-area triangles are dropped. Parallel; the result does not depend on threads.
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs);
 
+/// The middle of the vertices that faces use, rounded to a coarse grid so that pivots of moved copies differ by exactly the move.
+glm::dvec3 choosePivot(const PolyMesh& mesh);
+/// buildTriMesh around a given pivot, before the numbering.
+TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm::dvec3& pivot);
+
 /// Turns the corners of triangles around, and orders and repeats positions, so that indices[3·t + 2] == t. Drawing programs number triangles
 /// themselves too (gl_PrimitiveID), but software renderers are slow at it.
 void numberByLastVertex(TriMesh& mesh);

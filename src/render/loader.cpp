@@ -3,6 +3,8 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "geometry/topology.h"
+#include "scene/creases.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -68,6 +70,20 @@ private:
 
 }  // namespace
 
+std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh) {
+    const SubdivisionSettings& settings = source.subdivision;
+    if (!settings.present) return std::nullopt;
+    SubdivisionOptions options;
+    options.scheme = static_cast<SubdivisionScheme>(settings.scheme);
+    options.level = settings.level;
+    options.limit = settings.limit;
+    options = withTags(options, mesh.tags);
+    if (settings.boundary != BoundaryName::file) options.boundary = static_cast<BoundaryRule>(static_cast<int>(settings.boundary) - 1);
+    if (settings.uvBoundary != UvBoundaryName::file) options.uv = static_cast<UvRule>(static_cast<int>(settings.uvBoundary) - 1);
+    if (settings.creaseMethod != CreaseMethodName::file) options.chaikin = settings.creaseMethod == CreaseMethodName::chaikin;
+    return options;
+}
+
 void finishLoading(LoadedScene& loaded) {
     static std::atomic<std::uint64_t> count = 0;
     loaded.number = ++count;
@@ -91,7 +107,7 @@ LoadedScene loadScene(const std::filesystem::path& path) {
     for (const auto& instance : loaded.scene.instances) drawn[meshIndex(loaded.scene, instance.base.mesh)] = true;
 
     std::vector<std::uint64_t> hashes(meshes.size());
-    std::vector<std::optional<Error>> failed(meshes.size());
+    std::vector<std::vector<Error>> failed(meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
         if (!drawn[i]) return;
         try {
@@ -99,6 +115,8 @@ LoadedScene loadScene(const std::filesystem::path& path) {
             auto obj = parseObj(file.text(), meshes[i].file);
             loaded.meshes[i] = {std::move(obj.mesh), {}, std::move(obj.warnings)};
             loaded.meshes[i].materials = readMaterials(meshes[i].file, loaded.meshes[i].poly, loaded.meshes[i].warnings);
+            if (!meshes[i].creases.empty()) readCreases(meshes[i].creases, loaded.meshes[i].poly);
+            if (meshes[i].subdivision.present || loaded.meshes[i].poly.cornerNormal.empty()) repairTopology(loaded.meshes[i].poly, loaded.meshes[i].warnings);
             // Size and a sample of the text: reading every byte again would cost as much as parsing it.
             Hash hash;
             hash.add(std::to_string(file.text().size()));
@@ -109,14 +127,17 @@ LoadedScene loadScene(const std::filesystem::path& path) {
                 hash.add(fmt::format("{} {} {} {} {} {}", material.name, material.color.r, material.color.g, material.color.b, material.shininess, material.specular));
                 if (!material.texture.empty()) hash.add(MappedFile(material.texture).text());
             }
+            if (!meshes[i].creases.empty()) hash.add(MappedFile(meshes[i].creases).text());
             hashes[i] = hash.value();
         } catch (const Error& error) {
-            failed[i] = error;
+            failed[i].push_back(error);
+        } catch (const Errors& list) {
+            failed[i] = list.list;
         }
     });
     ErrorCollector errors;
-    for (auto& error : failed)
-        if (error) errors.add(*error);
+    for (const auto& list : failed)
+        for (const auto& error : list) errors.add(error);
     errors.throwIfAny();
 
     Hash hash;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame/gpu_scene.h"
+#include "geometry/subdivide.h"
 #include "render/config.h"
 #include "scene/obj.h"
 
@@ -13,6 +14,9 @@ struct LoadedMesh {
     std::vector<Material> materials;        ///< of its MTL files
     std::vector<MeshWarning> warnings;
 };
+
+/// How a mesh of the scene is to be subdivided, tags and settings together; nullopt: not at all. `edgeRate` is left out.
+std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh);
 
 struct LoadedScene {
     Scene scene;

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/install.h"
 #include "base/text.h"
+#include "render/edge_rates.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -176,6 +177,11 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
                 if (length.relative) fact(std::string(f.name), fmt::format("{}% of the diagonal = {} scene units ({} '{}')", numberText(length.amount * 100), numberText(static_cast<float>(length.inSceneUnits(scene.info.diagonal()))), choice.technique->slot, choice.technique->name));
             }
     };
+    for (std::size_t i = 0; i < loaded.meshes.size(); ++i) {
+        auto options = subdivisionOf(loaded.scene.meshes[i], loaded.meshes[i].poly);
+        if (!options || loaded.meshes[i].poly.faceCount() == 0) continue;
+        fact("subdivision", fmt::format("'{}': {}", loaded.scene.meshes[i].name, describe(*options, loaded.scene.meshes[i].subdivision.edgeLength, planSubdivision(loaded.meshes[i].poly, *options))));
+    }
     if (config.ao) lengths(*config.ao);
     for (const auto& layer : config.edges) lengths(layer);
     if (result.centre) fact("data AOVs", fmt::format("taken at pixel centres by one more sub-frame: {}", planSummary(*result.centre)));
@@ -184,20 +190,30 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
 
 Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder) : device_(device), shaders_(shaderFolder), executor_(device_, shaders_) {}
 
-GpuScene& Renderer::sceneOnGpu(const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times) {
+GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times) {
     const auto& materials = loaded.scene.materials;
     const bool changes = std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
-    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && !changes) return *gpuScene_;
+    const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
+    const std::string fittedTo = fitted ? fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y) : "";
+    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes) return *gpuScene_;
     Stopwatch watch(times);
     std::vector<TriMesh> meshes(loaded.meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
-        if (loaded.meshes[i].poly.faceCount() > 0) meshes[i] = buildTriMesh(loaded.meshes[i].poly, {has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)});
+        const PolyMesh& poly = loaded.meshes[i].poly;
+        if (poly.faceCount() == 0) return;
+        const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)};
+        if (auto subdivision = subdivisionOf(loaded.scene.meshes[i], poly)) {
+            subdivision->edgeRate = edgeRates(loaded, i, config);
+            meshes[i] = subdivide(poly, *subdivision, meshNeeds, loaded.scene.meshes[i].file);
+        } else {
+            meshes[i] = buildTriMesh(poly, meshNeeds);
+        }
     });
     watch.lap("of which triangles");
     gpuScene_ = nullptr;   // gives the old one's memory back first
     gpuScene_ = std::make_unique<GpuScene>(scene, meshes, needs, device_.limits());
     watch.lap("of which upload");
-    gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs;
+    gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs, gpuSceneFittedTo_ = fittedTo;
     return *gpuScene_;
 }
 
@@ -215,7 +231,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     watch.lap("plan");
 
     const SceneData needs = neededData(plans.averaged.plan, plans.centre);
-    GpuScene& gpu = sceneOnGpu(loaded, scene, needs, result.times);
+    GpuScene& gpu = sceneOnGpu(config, loaded, scene, needs, result.times);
     watch.lap("scene to the GPU");
     executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
     watch.lap("programs");

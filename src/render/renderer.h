@@ -50,7 +50,7 @@ public:
 
 private:
     /// The scene on the GPU: kept while frames differ only in what setView brings (cameras, transforms, lights).
-    GpuScene& sceneOnGpu(const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
+    GpuScene& sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
 
     gl::Device device_;
     ShaderLibrary shaders_;
@@ -59,6 +59,7 @@ private:
     std::unique_ptr<GpuScene> gpuScene_;
     std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
     SceneData gpuSceneData_ = SceneData::none;
+    std::string gpuSceneFittedTo_;           ///< camera and picture that edges were cut for; empty when none were
 };
 
 /// Writes a frame: EXR holds everything at `path`; other formats hold the beauty there, and AOVs go beside it as NAME.AOV.EXT (depth and

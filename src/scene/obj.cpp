@@ -123,6 +123,7 @@ struct Chunk {
     std::vector<std::uint32_t> relativePosition, relativeUv, relativeNormal;  ///< corners whose index is relative to this chunk
     std::vector<StateChange> changes;
     std::vector<std::string> libraries;
+    std::vector<std::pair<std::string, int>> tags;   ///< what follows `t`, and its line
     WarningList warnings;
     int lines = 0;
 };
@@ -221,7 +222,9 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
         chunk.libraries.emplace_back(cursor.rest());
     } else if (keyword == "l" || keyword == "p") {
         chunk.warnings.add("line or point element; not drawn", line);
-    } else if (keyword == "t" || keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod" || keyword == "shadow_obj" || keyword == "trace_obj") {
+    } else if (keyword == "t") {
+        chunk.tags.emplace_back(cursor.rest(), line);
+    } else if (keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod" || keyword == "shadow_obj" || keyword == "trace_obj") {
         // Known statements that say nothing about a polygon picture.
     } else {
         chunk.warnings.add("statement that OBJ does not know; skipped", line);
@@ -304,6 +307,7 @@ public:
             lineBase += chunk.lines;
             chunk = {};
         }
+        addTags(warnings);
     }
 
     std::size_t outOfRange = 0, faces = 0;
@@ -311,6 +315,7 @@ public:
 
 private:
     void addFaces(const Chunk& chunk, int lineBase, WarningList& warnings) {
+        for (const auto& [text, line] : chunk.tags) tags_.emplace_back(text, lineBase + line);
         std::size_t change = 0, start = 0;
         for (std::size_t face = 0; face < chunk.faceEnd.size(); ++face) {
             for (; change < chunk.changes.size() && chunk.changes[change].face <= face; ++change) applyChange(chunk.changes[change]);
@@ -329,7 +334,13 @@ private:
     }
 
     void addFace(std::span<const Chunk::Corner> corners, int line, WarningList& warnings) {
+        const std::size_t before = mesh_.faceCount();
+        addUsableFace(corners, line, warnings);
+        if (mesh_.faceCount() == before) dropped_.push_back(faces);
         ++faces;
+    }
+
+    void addUsableFace(std::span<const Chunk::Corner> corners, int line, WarningList& warnings) {
         const auto count = static_cast<std::int64_t>(mesh_.positions.size());
         for (const auto& corner : corners) {
             if (corner.position < 0 || corner.position >= count) {
@@ -370,8 +381,80 @@ private:
         return PolyMesh::kNone;
     }
 
+    /// One tag: NAME integers/floats/strings, then as many of each.
+    void addTag(const std::string& text, int line, WarningList& warnings) {
+        Cursor cursor{text.data(), text.data() + text.size()};
+        const auto name = cursor.word();
+        std::int64_t counts[3] = {};
+        cursor.skipBlanks();
+        for (int i = 0; i < 3; ++i) {
+            if (!cursor.integer(counts[i]) || counts[i] < 0 || counts[i] > static_cast<std::int64_t>(text.size())) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            if (i < 2 && (cursor.at == cursor.end || *cursor.at++ != '/')) return warnings.add("subdivision tag that cannot be read; skipped", line);
+        }
+        std::vector<std::int64_t> integers;
+        std::vector<float> floats;
+        std::string word;
+        for (std::int64_t i = 0; i < counts[0]; ++i) {
+            cursor.skipBlanks();
+            if (std::int64_t value; cursor.integer(value)) integers.push_back(value);
+        }
+        for (std::int64_t i = 0; i < counts[1]; ++i)
+            if (double value; cursor.number(value)) floats.push_back(static_cast<float>(value));
+        if (counts[2] > 0) word = cursor.word();
+        const bool complete = static_cast<std::int64_t>(integers.size()) == counts[0] && static_cast<std::int64_t>(floats.size()) == counts[1];
+        const bool hasFloat = std::find_if(floats.begin(), floats.end(), [](float f) { return !(f >= 0); }) == floats.end() && !floats.empty();
+        const auto isVertex = [&](std::int64_t v) { return v >= 0 && static_cast<std::size_t>(v) < mesh_.positions.size(); };
+        const auto choice = [&](int most) -> std::optional<int> {
+            if (integers.size() == 1 && integers[0] >= 0 && integers[0] <= most) return static_cast<int>(integers[0]);
+            warnings.add("subdivision tag that cannot be read; skipped", line);
+            return std::nullopt;
+        };
+        SubdivisionTags& tags = mesh_.tags;
+        if (!complete) return warnings.add("subdivision tag that cannot be read; skipped", line);
+        if (name == "crease") {
+            if (integers.size() < 2 || !hasFloat) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            for (std::size_t i = 0; i + 1 < integers.size(); ++i) {
+                if (!isVertex(integers[i]) || !isVertex(integers[i + 1])) warnings.add("crease or corner at a vertex that does not exist; skipped", line);
+                else tags.creases.push_back({static_cast<std::uint32_t>(integers[i]), static_cast<std::uint32_t>(integers[i + 1]), floats[std::min(i, floats.size() - 1)]});
+            }
+        } else if (name == "corner") {
+            if (integers.empty() || !hasFloat) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            for (std::size_t i = 0; i < integers.size(); ++i) {
+                if (!isVertex(integers[i])) warnings.add("crease or corner at a vertex that does not exist; skipped", line);
+                else tags.corners.push_back({static_cast<std::uint32_t>(integers[i]), floats[std::min(i, floats.size() - 1)]});
+            }
+        } else if (name == "hole") {
+            for (const auto face : integers) {
+                if (face < 0 || static_cast<std::size_t>(face) >= faces) { warnings.add("hole in a face that does not exist; skipped", line); continue; }
+                const auto at = std::lower_bound(dropped_.begin(), dropped_.end(), static_cast<std::size_t>(face));
+                if (at == dropped_.end() || *at != static_cast<std::size_t>(face)) tags.holes.push_back(static_cast<std::uint32_t>(face - (at - dropped_.begin())));
+            }
+        } else if (name == "interpolateboundary") {
+            tags.boundary = choice(2);
+        } else if (name == "facevaryinginterpolateboundary") {
+            tags.faceVaryingBoundary = choice(5);
+        } else if (name == "creasemethod" && (word == "normal" || word == "chaikin")) {
+            tags.chaikin = word == "chaikin";
+        } else if (name == "smoothtriangles" && (word == "catmark" || word == "smooth")) {
+            tags.smoothTriangles = word == "smooth";
+        } else if (name == "vertexedit" || name == "edgeedit" || name == "faceedit") {
+            warnings.add("hierarchical edit; not applied", line);
+        } else if (name != "facevaryingpropagatecorners") {
+            warnings.add("subdivision tag that is not known; skipped", line);
+        }
+    }
+
+    void addTags(WarningList& warnings) {
+        for (const auto& [text, line] : tags_) addTag(text, line, warnings);
+        auto& holes = mesh_.tags.holes;
+        std::sort(holes.begin(), holes.end());
+        holes.erase(std::unique(holes.begin(), holes.end()), holes.end());
+    }
+
     static constexpr std::uint32_t kUnset = ~0u;
     PolyMesh& mesh_;
+    std::vector<std::pair<std::string, int>> tags_;
+    std::vector<std::size_t> dropped_;   // numbers of faces in the file that were not usable, ascending
     NameTable materials_{mesh_.materialNames}, parts_{mesh_.partNames};
     std::uint32_t material_ = kUnset, part_ = kUnset, smoothing_ = 0;
     std::vector<char> usable_;

@@ -4,10 +4,27 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace limn {
+
+/// What a file says about subdivision: OpenSubdiv's `t` tags or a sidecar. Sharpness 10 and more is infinite.
+struct SubdivisionTags {
+    struct Crease { std::uint32_t a, b; float sharpness; bool operator==(const Crease&) const = default; };     ///< of the edge between two positions
+    struct Corner { std::uint32_t vertex; float sharpness; bool operator==(const Corner&) const = default; };
+    std::vector<Crease> creases;
+    std::vector<Corner> corners;
+    std::vector<std::uint32_t> holes;               ///< faces that are subdivided but not drawn, ascending
+    std::optional<int> boundary;                    ///< as in the file: 0 none, 1 edge and corner, 2 edge only
+    std::optional<int> faceVaryingBoundary;         ///< 0…5: none, corners only, plus 1, plus 2, boundaries, all
+    std::optional<bool> chaikin;
+    std::optional<bool> smoothTriangles;
+
+    bool operator==(const SubdivisionTags&) const = default;
+    bool empty() const { return *this == SubdivisionTags{}; }
+};
 
 struct PolyMesh {
     static constexpr std::int32_t kNone = -1;
@@ -25,6 +42,8 @@ struct PolyMesh {
     std::vector<std::uint32_t> facePart;             ///< index into partNames: the OBJ's objects and groups
     std::vector<std::uint32_t> faceSmoothing;        ///< smoothing group; 0 = flat
     bool hasSmoothing = false;                       ///< the file speaks of smoothing at all; else smooth by angle
+
+    SubdivisionTags tags;
 
     std::vector<std::string> materialNames;          ///< "" = no material named
     std::vector<std::string> partNames;

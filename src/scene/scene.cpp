@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cmath>
 #include <set>
 
 namespace limn {
@@ -30,6 +31,7 @@ constexpr Field kUnits[] = {
 constexpr Field kMesh[] = {
     field<&MeshSource::name>("name", {.required = true, .doc = "Name by which instances call the mesh."}),
     field<&MeshSource::file>("file", {.required = true, .doc = "OBJ file, relative to the scene file."}),
+    field<&MeshSource::creases>("creases", {.doc = "Sidecar for files without subdivision tags: a TOML file with creases = [[vertex, vertex, sharpness], ...] and corners = [[vertex, sharpness], ...]; vertices count from 0, sharpness 10 is infinite."}),
 };
 
 constexpr Field kInstance[] = {
@@ -71,6 +73,16 @@ constexpr Field kLight[] = {
 constexpr Field kShadow[] = {
     field<&ShadowSettings::resolution>("resolution", {.unit = "texels", .min = 16, .max = 16384, .accuracy = true, .doc = "Side of the shadow map."}),
     field<&ShadowSettings::softness>("softness", {.unit = "texels", .min = 0, .max = 16, .doc = "Width of the shadow's edge."}),
+};
+
+constexpr Field kSubdivision[] = {
+    field<&SubdivisionSettings::scheme>("scheme", {.doc = "catmull-clark, loop (triangles) or bilinear."}),
+    field<&SubdivisionSettings::level>("level", {.min = 0, .max = 10, .accuracy = true, .doc = "Times that every edge is halved; with edge_length the most it may be."}),
+    field<&SubdivisionSettings::limit>("limit", {.doc = "Draw the limit surface; false: the points of plain refinement, as some programs show."}),
+    field<&SubdivisionSettings::edgeLength>("edge_length", {.doc = "Cut edges to about this length over the camera's whole path: \"2px\" or scene units such as \"0.1\". Level 8 then unless level is given."}),
+    field<&SubdivisionSettings::boundary>("boundary", {.doc = "Rims of open meshes: none (faces at the rim vanish), edge_only (rounded corners), edge_and_corner, or what the file says."}),
+    field<&SubdivisionSettings::uvBoundary>("uv_boundary", {.doc = "Where texture coordinates stay straight."}),
+    field<&SubdivisionSettings::creaseMethod>("crease_method", {.doc = "How semi-sharp creases soften: normal or chaikin."}),
 };
 
 constexpr Field kMaterial[] = {
@@ -153,11 +165,22 @@ private:
     }
 
     void readMesh(const Node& node) {
-        auto mesh = readTable<MeshSource>(node, kMesh, "[[mesh]]").base;
+        static constexpr std::string_view alsoKnown[] = {"subdivision"};
+        auto mesh = readTable<MeshSource>(node, kMesh, "[[mesh]]", alsoKnown).base;
+        if (const Node* settings = node.find("subdivision")) readSubdivision(*settings, mesh.subdivision);
+        mesh.creases = resolveFile(node, "creases", mesh.creases);
         mesh.where = node.where;
         mesh.file = resolveFile(node, "file", mesh.file);
         if (!meshNames_.insert(mesh.name).second) fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
         scene_.meshes.push_back(std::move(mesh));
+    }
+
+    void readSubdivision(const Node& node, SubdivisionSettings& settings) {
+        settings.present = true;
+        readFields(node, kSubdivision, &settings, nullptr, "subdivision", errors_);
+        if (settings.edgeLength.empty()) return;
+        if (!node.find("level")) settings.level = 8;
+        if (!settings.wantedEdge()) fail(*node.find("edge_length"), fmt::format("edge_length '{}' is no length", settings.edgeLength), "write \"2px\", or scene units such as \"0.1\"");
     }
 
     void readMaterial(const Node& node) {
@@ -219,6 +242,15 @@ private:
 
 }  // namespace
 
+std::optional<SubdivisionSettings::EdgeLength> SubdivisionSettings::wantedEdge() const {
+    std::string_view text = edgeLength;
+    const bool isPixels = text.ends_with("px");
+    if (isPixels) text.remove_suffix(2);
+    const auto amount = parseNumber(text);
+    if (!amount || !(*amount > 0) || !std::isfinite(*amount)) return std::nullopt;
+    return EdgeLength{*amount, isPixels};
+}
+
 glm::dmat4 Instance::transform() const {
     if (matrix.size() == 16) {
         glm::dmat4 result(1);
@@ -237,6 +269,7 @@ std::vector<SceneSection> sceneSections() {
     return {{"", "top of the file", kHeader},
             {"[units]", "what the numbers mean", kUnits},
             {"[[mesh]]", "a mesh file", kMesh},
+            {"[[mesh]] subdivision", "draws the subdivision surface of the mesh; without it, its polygons as they are", kSubdivision},
             {"[[instance]]", "a mesh placed in the scene; without any, each mesh is drawn once where it was modelled", kInstance},
             {"[[camera]]", "a camera; without any, one that frames the scene", kCamera},
             {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight},
@@ -253,7 +286,7 @@ Scene sceneFromObj(const std::filesystem::path& objPath) {
     Scene scene;
     scene.file = objPath.string();
     const std::string name = objPath.stem().string();
-    scene.meshes.push_back({name, objPath.string(), {}});
+    scene.meshes.push_back({.name = name, .file = objPath.string()});
     scene.instances.push_back({{.name = name, .mesh = name}, {}});
     return scene;
 }

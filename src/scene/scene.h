@@ -31,9 +31,40 @@ struct Material {
     float specular = 1;         ///< strength of the highlight
 };
 
+enum class SubdivisionSchemeName { catmullClark, loop, bilinear };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<SubdivisionSchemeName> = {"catmull-clark", "loop", "bilinear"};
+enum class BoundaryName { file, none, edgeOnly, edgeAndCorner };
+template <>
+inline constexpr std::array<std::string_view, 4> enumNames<BoundaryName> = {"file", "none", "edge_only", "edge_and_corner"};
+enum class UvBoundaryName { file, none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
+template <>
+inline constexpr std::array<std::string_view, 7> enumNames<UvBoundaryName> = {"file", "none", "corners_only", "corners_plus1", "corners_plus2", "boundaries", "all"};
+enum class CreaseMethodName { file, normal, chaikin };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<CreaseMethodName> = {"file", "normal", "chaikin"};
+/// How a mesh is subdivided. "file" stands for what the mesh's own tags say, and where they say nothing for edge_and_corner, boundaries
+/// and normal.
+struct SubdivisionSettings {
+    bool present = false;
+    SubdivisionSchemeName scheme = SubdivisionSchemeName::catmullClark;
+    int level = 2;
+    bool limit = true;
+    std::string edgeLength;             ///< "2px" or a length in scene units; empty: level alone decides
+    BoundaryName boundary = BoundaryName::file;
+    UvBoundaryName uvBoundary = UvBoundaryName::file;
+    CreaseMethodName creaseMethod = CreaseMethodName::file;
+
+    /// What edgeLength says: pixels, or scene units. Nullopt when it is empty or no length.
+    struct EdgeLength { double amount; bool isPixels; };
+    std::optional<EdgeLength> wantedEdge() const;
+};
+
 struct MeshSource {
     std::string name;
     std::string file;           ///< absolute, or relative to the working directory
+    std::string creases;        ///< sidecar of creases and corners; empty = none
+    SubdivisionSettings subdivision;
     Location where;
 };
 

@@ -1,0 +1,344 @@
+#include "geometry/bfr.h"
+
+#include "geometry/far.h"
+
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/bfr/tessellation.h>
+#include <opensubdiv/sdc/crease.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <numeric>
+#include <shared_mutex>
+
+namespace limn {
+namespace {
+
+using namespace OpenSubdiv;
+using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
+
+/// How a face is cut: the same for all faces of a size with the same rates.
+struct Pattern {
+    std::vector<glm::dvec2> coords;         ///< boundary first: each corner, then the points of the edge after it
+    std::vector<std::uint32_t> facets;      ///< three coords per triangle
+    std::size_t boundary = 0;
+
+    std::size_t interior() const { return coords.size() - boundary; }
+};
+
+Pattern makePattern(const Bfr::Parameterization& parameterization, const std::vector<int>& rates) {
+    Bfr::Tessellation::Options options;
+    options.SetFacetSize(3);
+    const Bfr::Tessellation tessellation(parameterization, static_cast<int>(rates.size()), rates.data(), options);
+    Pattern pattern;
+    pattern.boundary = static_cast<std::size_t>(tessellation.GetNumBoundaryCoords());
+    std::vector<double> coords(static_cast<std::size_t>(tessellation.GetNumCoords()) * 2);
+    tessellation.GetCoords(coords.data());
+    for (std::size_t i = 0; i < coords.size(); i += 2) pattern.coords.emplace_back(coords[i], coords[i + 1]);
+    std::vector<int> facets(static_cast<std::size_t>(tessellation.GetNumFacets()) * 3);
+    tessellation.GetFacets(facets.data());
+    pattern.facets.assign(facets.begin(), facets.end());
+    return pattern;
+}
+
+/// A place well inside the face, or inside the part of it that uv lies in: n-gons are parametrized by one quarter square per corner.
+glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
+    switch (p.GetType()) {
+        case Bfr::Parameterization::TRI: return {1.0 / 3, 1.0 / 3};
+        case Bfr::Parameterization::QUAD_SUBFACES: return glm::floor(uv) + 0.25;
+        default: return {0.5, 0.5};
+    }
+}
+
+class Tessellator {
+public:
+    Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot)
+        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), withUvs_(needs.uvs && !cage.cornerUv.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
+
+    TriMesh run() {
+        findRates();
+        findSharpPlaces();
+        const Factory factory(*refiner_, factoryOptions());
+        layOut(factory);
+        points_.resize(cage_.positions.size() * 3);
+        for (std::size_t i = 0; i < cage_.positions.size(); ++i)
+            for (int k = 0; k < 3; ++k) points_[3 * i + static_cast<std::size_t>(k)] = cage_.positions[i][k] - pivot_[k];
+        if (withUvs_)
+            for (const auto& uv : uvValues(cage_)) uvPoints_.push_back(uv.x), uvPoints_.push_back(uv.y);
+        tbb::enumerable_thread_specific<Scratch> scratch;
+        tbb::parallel_for(0, base_.GetNumFaces(), [&](int f) { evaluate(factory, f, scratch.local()); });
+        mendNormals();
+        return std::move(out_);
+    }
+
+private:
+    struct Scratch {
+        Bfr::Surface<double> surface, uvSurface;
+        std::vector<double> patch, uvPatch;
+        std::map<std::vector<int>, Pattern> patterns;
+    };
+
+    void findRates() {
+        rate_.assign(static_cast<std::size_t>(base_.GetNumEdges()), 1 << options_.level);
+        if (!options_.edgeRate) return;
+        tbb::parallel_for(0, base_.GetNumEdges(), [&](int e) {
+            const auto ends = base_.GetEdgeVertices(e);
+            rate_[static_cast<std::size_t>(e)] = std::clamp(options_.edgeRate(cage_.positions[static_cast<std::size_t>(ends[0])], cage_.positions[static_cast<std::size_t>(ends[1])]), 1, 1 << options_.level);
+        });
+    }
+
+    /// Where each side has a normal of its own.
+    void findSharpPlaces() {
+        const bool all = options_.scheme == SubdivisionScheme::bilinear;
+        sharpEdge_.resize(static_cast<std::size_t>(base_.GetNumEdges()));
+        sharpVertex_.resize(static_cast<std::size_t>(base_.GetNumVertices()));
+        for (int e = 0; e < base_.GetNumEdges(); ++e)
+            sharpEdge_[static_cast<std::size_t>(e)] = base_.GetEdgeFaces(e).size() > 1 && (all || Sdc::Crease::IsInfinite(base_.GetEdgeSharpness(e)) || base_.IsEdgeNonManifold(e));
+        for (int v = 0; v < base_.GetNumVertices(); ++v) {
+            int edges = 0;
+            for (const auto e : base_.GetVertexEdges(v)) edges += sharpEdge_[static_cast<std::size_t>(e)];
+            // One sharp edge that ends here is a dart: smooth. So is a rim that nothing sharp runs into.
+            sharpVertex_[static_cast<std::size_t>(v)] = all || base_.IsVertexNonManifold(v) || Sdc::Crease::IsInfinite(base_.GetVertexSharpness(v)) || edges > (base_.IsVertexBoundary(v) ? 0 : 1);
+        }
+    }
+
+    Factory::Options factoryOptions() const {
+        const int most = rate_.empty() ? 1 : *std::max_element(rate_.begin(), rate_.end());
+        // Bfr's own 2 and 6 leave errors of a hundredth of the diagonal and of many degrees; these cost a third more time.
+        const int fine = std::max(4, static_cast<int>(std::bit_width(static_cast<unsigned>(most - 1)))) + 1;
+        Factory::Options options;
+        options.SetApproxLevelSmooth(std::min(fine, 10));
+        options.SetApproxLevelSharp(10);
+        options.SetDefaultFVarID(0);
+        return options;
+    }
+
+    std::vector<int> ratesOf(int face) const {
+        const auto edges = base_.GetFaceEdges(face);
+        std::vector<int> rates;
+        for (const auto e : edges) rates.push_back(rate_[static_cast<std::size_t>(e)]);
+        // Inner rates too: Bfr's own choice makes fans of quads whose edges are not cut.
+        if (edges.size() == 4) rates.push_back(std::max(rates[0], rates[2])), rates.push_back(std::max(rates[1], rates[3]));
+        else rates.push_back(*std::max_element(rates.begin(), rates.end()));
+        return rates;
+    }
+
+    const Pattern& patternOf(const Factory& factory, int face, std::map<std::vector<int>, Pattern>& known) const {
+        const std::vector<int> rates = ratesOf(face);
+        std::vector<int> key = rates;
+        key.push_back(base_.GetFaceVertices(face).size());   // quads and pentagons have six rates both
+        const auto found = known.find(key);
+        if (found != known.end()) return found->second;
+        if (known.size() > 2000) known.clear();   // rates fitted to a view repeat little
+        Pattern pattern = makePattern(factory.GetFaceParameterization(face), rates);
+        return known.emplace(std::move(key), std::move(pattern)).first->second;
+    }
+
+    bool sharpAt(const Pattern&, int face, std::size_t corner, bool atVertex) const {
+        return atVertex ? sharpVertex_[static_cast<std::size_t>(base_.GetFaceVertices(face)[static_cast<int>(corner)])] : sharpEdge_[static_cast<std::size_t>(base_.GetFaceEdges(face)[static_cast<int>(corner)])];
+    }
+
+    /// Calls use(i, corner, k) for each boundary coord i of a face: k = 0 at the corner, else the k-th point of the edge after it.
+    template <class Use>
+    void forBoundary(int face, Use&& use) const {
+        const auto edges = base_.GetFaceEdges(face);
+        std::size_t i = 0;
+        for (int corner = 0; corner < edges.size(); ++corner)
+            for (int k = 0; k < rate_[static_cast<std::size_t>(edges[corner])]; ++k) use(i++, corner, k);
+    }
+
+    /// Gives every point, normal, uv and triangle its place, so that faces can then be evaluated in any order.
+    void layOut(const Factory& factory) {
+        const auto faces = static_cast<std::size_t>(base_.GetNumFaces());
+        std::vector<std::uint32_t> interior(faces, 0), triangles(faces, 0), ownNormals(faces, 0), coords(faces, 0);
+        tbb::enumerable_thread_specific<std::map<std::vector<int>, Pattern>> known;
+        tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
+            const int face = static_cast<int>(f);
+            if (!factory.FaceHasLimitSurface(face)) return;
+            const Pattern& pattern = patternOf(factory, face, known.local());
+            interior[f] = static_cast<std::uint32_t>(pattern.interior());
+            triangles[f] = static_cast<std::uint32_t>(pattern.facets.size() / 3);
+            coords[f] = static_cast<std::uint32_t>(pattern.coords.size());
+            forBoundary(face, [&](std::size_t, int corner, int k) { ownNormals[f] += sharpAt(pattern, face, static_cast<std::size_t>(corner), k == 0); });
+        });
+        drawn_.resize(faces);
+        for (std::size_t f = 0; f < faces; ++f) drawn_[f] = triangles[f] > 0;
+
+        constexpr int none = -1;
+        vertexOwner_.assign(static_cast<std::size_t>(base_.GetNumVertices()), none);
+        edgeOwner_.assign(static_cast<std::size_t>(base_.GetNumEdges()), none);
+        for (int f = 0; f < base_.GetNumFaces(); ++f) {
+            if (!drawn_[static_cast<std::size_t>(f)]) continue;
+            for (const auto v : base_.GetFaceVertices(f))
+                if (int& owner = vertexOwner_[static_cast<std::size_t>(v)]; owner == none) owner = f;
+            for (const auto e : base_.GetFaceEdges(f))
+                if (int& owner = edgeOwner_[static_cast<std::size_t>(e)]; owner == none) owner = f;
+        }
+        std::size_t next = static_cast<std::size_t>(base_.GetNumVertices());
+        for (int e = 0; e < base_.GetNumEdges(); ++e) {
+            edgeStart_.push_back(static_cast<std::uint32_t>(next));
+            next += static_cast<std::size_t>(rate_[static_cast<std::size_t>(e)] - 1);
+        }
+        const auto place = [](const std::vector<std::uint32_t>& counts, std::size_t start, std::vector<std::uint32_t>& starts) {
+            for (const auto count : counts) starts.push_back(static_cast<std::uint32_t>(start)), start += count;
+            return start;
+        };
+        const std::size_t positions = place(interior, next, interiorStart_);
+        const std::size_t normals = place(ownNormals, positions, normalStart_);
+        const std::size_t uvs = place(coords, 0, uvStart_);
+        const std::size_t count = place(triangles, 0, triangleStart_);
+        out_.pivot = pivot_;
+        out_.positions.resize(positions);
+        out_.indices.resize(3 * count);
+        if (needs_.normals) out_.normals.resize(normals), out_.normalIndices.resize(3 * count);
+        if (needs_.uvs) out_.uvs.resize(withUvs_ ? uvs : 1), out_.uvIndices.resize(3 * count);
+        const auto any = [](const auto& values) { return std::any_of(values.begin(), values.end(), [](auto v) { return v != 0; }); };
+        if (any(cage_.faceMaterial)) out_.triangleMaterial.resize(count);
+        if (any(cage_.facePart)) out_.trianglePart.resize(count);
+    }
+
+    struct Place {
+        std::uint32_t position, normal;
+        bool writesPosition, writesNormal;
+    };
+
+    void evaluate(const Factory& factory, int face, Scratch& s) {
+        const auto f = static_cast<std::size_t>(face);
+        if (!drawn_[f]) return;
+        const Pattern& pattern = patternOf(factory, face, s.patterns);
+        factory.InitVertexSurface(face, &s.surface);
+        s.patch.resize(static_cast<std::size_t>(s.surface.GetNumPatchPoints()) * 3);
+        s.surface.PreparePatchPoints(points_.data(), Bfr::Surface<double>::PointDescriptor(3), s.patch.data(), Bfr::Surface<double>::PointDescriptor(3));
+
+        std::vector<Place> places(pattern.coords.size());
+        const auto vertices = base_.GetFaceVertices(face);
+        const auto edges = base_.GetFaceEdges(face);
+        std::uint32_t ownNormal = normalStart_[f];
+        forBoundary(face, [&](std::size_t i, int corner, int k) {
+            Place& place = places[i];
+            bool owns, sharp;
+            if (k == 0) {
+                const auto v = static_cast<std::size_t>(vertices[corner]);
+                place.position = static_cast<std::uint32_t>(v);
+                owns = vertexOwner_[v] == face, sharp = sharpVertex_[v];
+            } else {
+                const auto e = static_cast<std::size_t>(edges[corner]);
+                // The edge's own direction decides the order of its points; a face may run along it the other way.
+                const bool forward = base_.GetEdgeVertices(edges[corner])[0] == vertices[corner];
+                place.position = edgeStart_[e] + static_cast<std::uint32_t>(forward ? k - 1 : rate_[e] - 1 - k);
+                owns = edgeOwner_[e] == face, sharp = sharpEdge_[e];
+            }
+            place.writesPosition = owns;
+            place.normal = sharp ? ownNormal++ : place.position;
+            place.writesNormal = sharp || owns;
+        });
+        for (std::size_t i = pattern.boundary; i < places.size(); ++i) {
+            const std::uint32_t at = interiorStart_[f] + static_cast<std::uint32_t>(i - pattern.boundary);
+            places[i] = {at, at, true, true};
+        }
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Place& place = places[i];
+            const bool normal = needs_.normals && place.writesNormal;
+            if (!place.writesPosition && !normal) continue;
+            glm::dvec3 point, du, dv;
+            if (normal) s.surface.Evaluate(&pattern.coords[i].x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x, &du.x, &dv.x);
+            else s.surface.Evaluate(&pattern.coords[i].x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x);
+            if (place.writesPosition) out_.positions[place.position] = point;
+            if (normal) out_.normals[place.normal] = normalAt(s, pattern.coords[i], du, dv);
+        }
+        if (withUvs_) {
+            factory.InitFaceVaryingSurface(face, &s.uvSurface, 0);
+            s.uvPatch.resize(static_cast<std::size_t>(s.uvSurface.GetNumPatchPoints()) * 2);
+            s.uvSurface.PreparePatchPoints(uvPoints_.data(), Bfr::Surface<double>::PointDescriptor(2), s.uvPatch.data(), Bfr::Surface<double>::PointDescriptor(2));
+            for (std::size_t i = 0; i < pattern.coords.size(); ++i) {
+                glm::dvec2 uv;
+                s.uvSurface.Evaluate(&pattern.coords[i].x, s.uvPatch.data(), Bfr::Surface<double>::PointDescriptor(2), &uv.x);
+                out_.uvs[uvStart_[f] + i] = uv;
+            }
+        }
+        const std::size_t first = triangleStart_[f];
+        for (std::size_t i = 0; i < pattern.facets.size(); ++i) {
+            const std::uint32_t coord = pattern.facets[i];
+            out_.indices[3 * first + i] = places[coord].position;
+            if (needs_.normals) out_.normalIndices[3 * first + i] = places[coord].normal;
+            if (needs_.uvs) out_.uvIndices[3 * first + i] = withUvs_ ? uvStart_[f] + coord : 0;
+        }
+        for (std::size_t t = first; t < first + pattern.facets.size() / 3; ++t) {
+            if (!out_.triangleMaterial.empty()) out_.triangleMaterial[t] = cage_.faceMaterial[f];
+            if (!out_.trianglePart.empty()) out_.trianglePart[t] = cage_.facePart[f];
+        }
+    }
+
+    /// Derivatives vanish at smooth corners of rims, collapsed edges and the like: there the normal just inside the face is the limit.
+    glm::vec3 normalAt(Scratch& s, const glm::dvec2& uv, glm::dvec3 du, glm::dvec3 dv) const {
+        const auto unit = [](const glm::dvec3& a, const glm::dvec3& b) {
+            const double product = glm::length(a) * glm::length(b);
+            const glm::dvec3 n = glm::cross(a, b);
+            return product > 0 && glm::length(n) > 1e-7 * product ? glm::normalize(n) : glm::dvec3(0);
+        };
+        glm::dvec3 n = unit(du, dv);
+        const glm::dvec2 centre = inwards(s.surface.GetParameterization(), uv);
+        for (double step = 1e-4; glm::dot(n, n) == 0 && step < 0.2; step *= 10) {
+            const glm::dvec2 inside = glm::mix(uv, centre, step);
+            glm::dvec3 point;
+            s.surface.Evaluate(&inside.x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x, &du.x, &dv.x);
+            n = unit(du, dv);
+        }
+        return n;
+    }
+
+    /// What is still without a normal takes the mean of its triangles'; triangles without area go.
+    void mendNormals() {
+        const std::size_t count = out_.triangleCount();
+        const auto position = [&](std::size_t i) { return glm::dvec3(out_.positions[out_.indices[i]]); };
+        if (needs_.normals) {
+            const auto isZero = [](const glm::vec3& n) { return n == glm::vec3(0); };
+            if (std::any_of(out_.normals.begin(), out_.normals.end(), isZero)) {
+                std::vector<glm::dvec3> sum(out_.normals.size(), glm::dvec3(0));
+                for (std::size_t t = 0; t < count; ++t) {
+                    const glm::dvec3 area = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t));
+                    for (std::size_t k = 0; k < 3; ++k) sum[out_.normalIndices[3 * t + k]] += area;
+                }
+                for (std::size_t i = 0; i < sum.size(); ++i)
+                    if (isZero(out_.normals[i]) && glm::length(sum[i]) > 0) out_.normals[i] = glm::normalize(sum[i]);
+            }
+        }
+        std::vector<char> keep(count);
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) { keep[t] = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t)) != glm::dvec3(0); });
+        if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return;
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < count; ++t) {
+            if (!keep[t]) continue;
+            const auto move = [&](std::vector<std::uint32_t>& values, std::size_t size) {
+                if (!values.empty()) std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size, values.begin() + static_cast<std::ptrdiff_t>(size * kept));
+            };
+            move(out_.indices, 3), move(out_.normalIndices, 3), move(out_.uvIndices, 3), move(out_.triangleMaterial, 1), move(out_.trianglePart, 1);
+            ++kept;
+        }
+        const auto cut = [&](std::vector<std::uint32_t>& values, std::size_t size) { if (!values.empty()) values.resize(size * kept); };
+        cut(out_.indices, 3), cut(out_.normalIndices, 3), cut(out_.uvIndices, 3), cut(out_.triangleMaterial, 1), cut(out_.trianglePart, 1);
+    }
+
+    const PolyMesh& cage_;
+    const SubdivisionOptions& options_;
+    const MeshNeeds& needs_;
+    glm::dvec3 pivot_;
+    bool withUvs_;
+    std::unique_ptr<Far::TopologyRefiner> refiner_;
+    const Far::TopologyLevel& base_;
+    std::vector<int> rate_, vertexOwner_, edgeOwner_;
+    std::vector<char> sharpEdge_, sharpVertex_, drawn_;
+    std::vector<std::uint32_t> edgeStart_, interiorStart_, normalStart_, uvStart_, triangleStart_;
+    std::vector<double> points_, uvPoints_;
+    TriMesh out_;
+};
+
+}  // namespace
+
+TriMesh tessellateByBfr(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot) { return Tessellator(cage, options, needs, pivot).run(); }
+
+}  // namespace limn

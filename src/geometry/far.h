@@ -1,0 +1,20 @@
+// The bridge to OpenSubdiv's Far: cages as topology refiners. Only subdivision includes it, since OpenSubdiv's headers are large.
+#pragma once
+
+#include "geometry/subdivide.h"
+
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include <memory>
+
+namespace limn {
+
+/// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without have the value after the last).
+/// Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left out. Throws Error (internal) if
+/// OpenSubdiv refuses.
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(const PolyMesh& cage, const SubdivisionOptions& options, bool withUvs);
+
+/// The mesh's uvs, and one more for corners without.
+std::vector<glm::dvec2> uvValues(const PolyMesh& mesh);
+
+}  // namespace limn
