@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
     cli::addCheck(app, chosen);
     cli::addTechniques(app, chosen);
     cli::addInit(app, chosen);
+    cli::addMesh(app, chosen);
     cli::addDoctor(app, chosen);
     try {
         app.parse(argc, argv);

@@ -62,12 +62,30 @@ std::string numberText(double value) {
     return static_cast<double>(narrow) == value ? fmt::format("{}", narrow) : fmt::format("{}", value);
 }
 
+/// Length of the UTF-8 sequence that begins the text, or 0 where there is none.
+static std::size_t utf8Length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xc2 && byte(0) < 0xe0 ? 2 : byte(0) >= 0xe0 && byte(0) < 0xf0 ? 3 : byte(0) >= 0xf0 && byte(0) < 0xf5 ? 4 : 0;
+    if (length == 0 || length > text.size()) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    return length;
+}
+
 std::string jsonText(std::string_view text) {
     std::string result = "\"";
-    for (const char c : text) {
+    while (!text.empty()) {
+        const std::size_t length = utf8Length(text);
+        if (length == 0) {   // names in files may be in any encoding; JSON is UTF-8
+            result += "\\ufffd";
+            text.remove_prefix(1);
+            continue;
+        }
+        const char c = text.front();
         if (c == '"' || c == '\\') result += '\\';
         if (static_cast<unsigned char>(c) < 0x20) result += fmt::format("\\u{:04x}", static_cast<int>(c));
-        else result += c;
+        else result += text.substr(0, length);
+        text.remove_prefix(length);
     }
     return result + '"';
 }

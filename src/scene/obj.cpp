@@ -568,8 +568,17 @@ std::vector<Material> readMaterials(const std::filesystem::path& objPath, const 
             readLibrary(whole);
             continue;
         }
-        Cursor cursor{line.data(), line.data() + line.size()};
-        while (!cursor.atEnd()) readLibrary(objPath.parent_path() / cursor.word());
+        // Several names; a backslash keeps a space within one.
+        std::string name;
+        for (std::size_t i = 0; i <= line.size(); ++i) {
+            if (i < line.size() && !isBlank(line[i])) {
+                if (line[i] == '\\' && i + 1 < line.size() && isBlank(line[i + 1])) ++i;
+                name += line[i];
+            } else if (!name.empty()) {
+                readLibrary(objPath.parent_path() / name);
+                name.clear();
+            }
+        }
     }
     return materials;
 }
