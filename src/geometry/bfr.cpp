@@ -109,7 +109,8 @@ private:
     Factory::Options factoryOptions() const {
         const int most = rate_.empty() ? 1 : *std::max_element(rate_.begin(), rate_.end());
         // Bfr's own 2 and 6 leave errors of a hundredth of the diagonal and of many degrees; these cost a third more time.
-        const int fine = std::max(4, static_cast<int>(std::bit_width(static_cast<unsigned>(most - 1)))) + 1;
+        int fine = std::max(4, static_cast<int>(std::bit_width(static_cast<unsigned>(most - 1)))) + 1;
+        if (const int creases = levelsOfCreases(cage_.tags); creases > 0) fine = std::max(fine, creases + 2);
         Factory::Options options;
         options.SetApproxLevelSmooth(std::min(fine, 10));
         options.SetApproxLevelSharp(10);
@@ -298,13 +299,15 @@ private:
         if (needs_.normals) {
             const auto isZero = [](const glm::vec3& n) { return n == glm::vec3(0); };
             if (std::any_of(out_.normals.begin(), out_.normals.end(), isZero)) {
-                std::vector<glm::dvec3> sum(out_.normals.size(), glm::dvec3(0));
+                std::vector<glm::dvec3> sum(out_.normals.size(), glm::dvec3(0)), one(out_.normals.size(), glm::dvec3(0));
                 for (std::size_t t = 0; t < count; ++t) {
                     const glm::dvec3 area = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t));
                     for (std::size_t k = 0; k < 3; ++k) sum[out_.normalIndices[3 * t + k]] += area;
+                    if (glm::length(area) > 0)
+                        for (std::size_t k = 0; k < 3; ++k) one[out_.normalIndices[3 * t + k]] = area;
                 }
                 for (std::size_t i = 0; i < sum.size(); ++i)
-                    if (isZero(out_.normals[i]) && glm::length(sum[i]) > 0) out_.normals[i] = glm::normalize(sum[i]);
+                    if (isZero(out_.normals[i]) && glm::length(one[i]) > 0) out_.normals[i] = glm::normalize(glm::length(sum[i]) > 1e-6 * glm::length(one[i]) ? sum[i] : one[i]);
             }
         }
         std::vector<char> keep(count);

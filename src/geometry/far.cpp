@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 
 namespace limn {
 namespace {
@@ -95,7 +96,47 @@ private:
     std::vector<int> group_;
 };
 
+/// UVs of a level from those of a deeper one: each corner of a face is a corner of one of the face's children, again and again.
+void takeDeepUvs(const Far::TopologyRefiner& refiner, int level, int depth, const std::vector<Value<2>>& deep, std::vector<Value<2>>& uvs) {
+    const auto& first = refiner.GetLevel(level);
+    for (int f = 0; f < first.GetNumFaces(); ++f) {
+        const auto values = first.GetFaceFVarValues(f, 0);
+        for (int corner = 0; corner < values.size(); ++corner) {
+            int face = f, at = corner, vertex = first.GetFaceVertices(f)[corner];
+            for (int l = level; l < depth; ++l) {
+                vertex = refiner.GetLevel(l).GetVertexChildVertex(vertex);
+                const auto children = refiner.GetLevel(l).GetFaceChildFaces(face);
+                for (const auto child : children)
+                    if (const int found = refiner.GetLevel(l + 1).GetFaceVertices(child).FindIndex(vertex); found >= 0) {
+                        face = child, at = found;
+                        break;
+                    }
+            }
+            uvs[static_cast<std::size_t>(values[corner])] = deep[static_cast<std::size_t>(refiner.GetLevel(depth).GetFaceFVarValues(face, 0)[at])];
+        }
+    }
+}
+
+/// Uniform refinement quadruples faces per level; sharper creases than this stay sharp on the safe path.
+constexpr int kDeepest = 6;
+constexpr std::size_t kMostFaces = std::size_t{1} << 20;
+
+/// Does an infinitely sharp crease end anywhere?
+bool hasDart(const SubdivisionTags& tags) {
+    std::map<std::uint32_t, int> ends;
+    for (const auto& crease : tags.creases)
+        if (crease.sharpness >= kInfiniteSharpness) ++ends[crease.a], ++ends[crease.b];
+    return std::any_of(ends.begin(), ends.end(), [](const auto& end) { return end.second == 1; });
+}
+
 }  // namespace
+
+int levelsOfCreases(const SubdivisionTags& tags) {
+    float most = 0;
+    for (const auto& crease : tags.creases) most = std::max(most, crease.sharpness < kInfiniteSharpness ? crease.sharpness : 0);
+    for (const auto& corner : tags.corners) most = std::max(most, corner.sharpness < kInfiniteSharpness ? corner.sharpness : 0);
+    return static_cast<int>(std::ceil(most));
+}
 
 std::vector<glm::dvec2> uvValues(const PolyMesh& mesh) {
     std::vector<glm::dvec2> values(mesh.uvs.begin(), mesh.uvs.end());
@@ -163,7 +204,13 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const PolyMesh& cage, const Su
 PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options, bool wantNormals) {
     const bool withUvs = !cage.cornerUv.empty();
     const auto refiner = makeRefiner(cage, options, withUvs);
-    Far::TopologyRefiner::UniformOptions uniform(options.level);
+    // Semi-sharp creases reach their limit only below as many levels as they are sharp, and where an infinitely sharp one ends in a dart
+    // every level comes nearer: refine on, and take the points of this level there.
+    const bool toLimit = options.limit && options.scheme != SubdivisionScheme::bilinear;
+    int depth = options.level;
+    if (toLimit)
+        for (const int wanted = hasDart(cage.tags) ? kDeepest : std::min(levelsOfCreases(cage.tags), kDeepest); depth < wanted && cage.faceCount() << (2 * depth) < kMostFaces;) ++depth;
+    Far::TopologyRefiner::UniformOptions uniform(depth);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);
     const Far::PrimvarRefinerReal<double> primvars(*refiner);
@@ -173,27 +220,41 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     std::vector<Value<2>> uvs;
     if (withUvs)
         for (const auto& uv : uvValues(cage)) uvs.push_back({uv});
-    for (int l = 1; l <= options.level; ++l) {
+    for (int l = 1; l <= depth; ++l) {
         std::vector<Value<3>> finer(static_cast<std::size_t>(refiner->GetLevel(l).GetNumVertices()));
         primvars.Interpolate(l, points, finer);
         points = std::move(finer);
-        if (!withUvs) continue;
+        if (!withUvs || l > options.level) continue;
         std::vector<Value<2>> finerUvs(static_cast<std::size_t>(refiner->GetLevel(l).GetNumFVarValues(0)));
         primvars.InterpolateFaceVarying(l, uvs, finerUvs, 0);
         uvs = std::move(finerUvs);
     }
     const Far::TopologyLevel& last = refiner->GetLevel(options.level);
     std::vector<glm::dvec3> limitNormals;
-    if (options.limit && options.scheme != SubdivisionScheme::bilinear) {
+    if (toLimit) {
         std::vector<Value<3>> limit(points.size()), du(points.size()), dv(points.size());
         primvars.Limit(points, limit, du, dv);
-        points = std::move(limit);
-        for (std::size_t i = 0; wantNormals && i < points.size(); ++i) limitNormals.push_back(unitOrZero(glm::cross(du[i].v, dv[i].v)));
-        if (withUvs) {
-            std::vector<Value<2>> limitUvs(uvs.size());
-            primvars.LimitFaceVarying(uvs, limitUvs, 0);
-            uvs = std::move(limitUvs);
+        points.resize(static_cast<std::size_t>(last.GetNumVertices()));
+        for (int v = 0; v < last.GetNumVertices(); ++v) {
+            int deep = v;
+            for (int l = options.level; l < depth; ++l) deep = refiner->GetLevel(l).GetVertexChildVertex(deep);
+            const auto at = static_cast<std::size_t>(deep);
+            points[static_cast<std::size_t>(v)] = limit[at];
+            if (wantNormals) limitNormals.push_back(unitOrZero(glm::cross(du[at].v, dv[at].v)));
         }
+    }
+    if (toLimit && withUvs) {
+        // Face-varying limits know no creases, but are computed on the last level only.
+        std::vector<Value<2>> deep = uvs;
+        for (int l = options.level + 1; l <= depth; ++l) {
+            std::vector<Value<2>> finer(static_cast<std::size_t>(refiner->GetLevel(l).GetNumFVarValues(0)));
+            primvars.InterpolateFaceVarying(l, deep, finer, 0);
+            deep = std::move(finer);
+        }
+        std::vector<Value<2>> limitUvs(deep.size());
+        primvars.LimitFaceVarying(deep, limitUvs, 0);
+        if (depth == options.level) uvs = std::move(limitUvs);
+        else takeDeepUvs(*refiner, options.level, depth, limitUvs, uvs);
     }
 
     PolyMesh out;

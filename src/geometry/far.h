@@ -14,6 +14,9 @@ namespace limn {
 /// OpenSubdiv refuses.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(const PolyMesh& cage, const SubdivisionOptions& options, bool withUvs);
 
+/// Levels until the last semi-sharp crease or corner has gone smooth.
+int levelsOfCreases(const SubdivisionTags& tags);
+
 /// The mesh's uvs, and one more for corners without.
 std::vector<glm::dvec2> uvValues(const PolyMesh& mesh);
 

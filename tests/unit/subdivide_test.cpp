@@ -1,0 +1,237 @@
+// Subdivision against independent implementations: OpenSubdiv's uniform refinement and limit, and the point sets that Hbr made.
+
+#include "geometry/subdivide.h"
+#include "geometry/topology.h"
+#include "scene/obj.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace limn {
+namespace {
+
+std::filesystem::path dataFolder() {
+    const char* data = std::getenv("LIMN_TEST_DATA");
+    return data ? data : "";
+}
+
+std::vector<std::filesystem::path> shapes(const char* folder) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(dataFolder() / folder))
+        if (entry.path().extension() == ".obj") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// A cage as Pixar's tests mean it: the scheme is in the file's name, and without a tag rims follow edge-only.
+struct Cage {
+    PolyMesh mesh;
+    SubdivisionOptions options;
+};
+
+Cage readCage(const std::filesystem::path& path) {
+    Cage cage{readObj(path).mesh, {}};
+    std::vector<MeshWarning> warnings;
+    repairTopology(cage.mesh, warnings);
+    const std::string name = path.filename().string();
+    cage.options.scheme = name.starts_with("loop") ? SubdivisionScheme::loop : name.starts_with("bilinear") ? SubdivisionScheme::bilinear : SubdivisionScheme::catmullClark;
+    cage.options.boundary = BoundaryRule::edgeOnly;
+    cage.options = withTags(cage.options, cage.mesh.tags);
+    return cage;
+}
+
+/// Points in cells, so that near ones are found at once.
+class PointSet {
+public:
+    PointSet(const std::vector<glm::dvec3>& points, double reach) : points_(points), reach_(reach) {
+        for (std::size_t i = 0; i < points.size(); ++i) cells_[key(cell(points[i]))].push_back(i);
+    }
+    /// All points within reach.
+    std::vector<std::size_t> near(const glm::dvec3& p) const {
+        std::vector<std::size_t> found;
+        const auto c = cell(p);
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z)
+                    if (const auto it = cells_.find(key(c + glm::i64vec3(x, y, z))); it != cells_.end())
+                        for (const auto i : it->second)
+                            if (glm::distance(points_[i], p) <= reach_) found.push_back(i);
+        return found;
+    }
+
+private:
+    glm::i64vec3 cell(const glm::dvec3& p) const { return glm::i64vec3(glm::floor(p / reach_)); }
+    static std::size_t key(const glm::i64vec3& c) { return static_cast<std::size_t>(c.x * 73856093 ^ c.y * 19349663 ^ c.z * 83492791); }
+    std::vector<glm::dvec3> points_;
+    double reach_;
+    std::unordered_map<std::size_t, std::vector<std::size_t>> cells_;
+};
+
+double diagonal(const std::vector<glm::dvec3>& points) {
+    Bounds bounds;
+    for (const auto& p : points) bounds.add(p);
+    return bounds.diagonal();
+}
+
+/// Positions and normals of every triangle corner.
+struct Corners {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs;
+};
+Corners cornersOf(const TriMesh& mesh) {
+    Corners corners;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        corners.positions.push_back(glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.pivot);
+        if (!mesh.normalIndices.empty()) corners.normals.push_back(mesh.normals[mesh.normalIndices[i]]);
+        if (!mesh.uvIndices.empty()) corners.uvs.push_back(mesh.uvs[mesh.uvIndices[i]]);
+    }
+    return corners;
+}
+
+/// Edges of triangles that an odd number of triangles use, where points are the same only if every bit is.
+std::size_t openEdges(const TriMesh& mesh) {
+    std::map<std::array<float, 3>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> number;
+    for (const auto& p : mesh.positions) number.push_back(numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const auto a = number[mesh.indices[i]], b = number[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+        ++uses[std::minmax(a, b)];
+    }
+    return static_cast<std::size_t>(std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second % 2 == 1; }));
+}
+
+/// Points of the triangles' rims, in world units.
+std::vector<glm::dvec3> rimPoints(const TriMesh& mesh) {
+    std::map<std::array<float, 3>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> number;
+    for (const auto& p : mesh.positions) number.push_back(numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<int, std::array<std::uint32_t, 2>>> uses;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const auto a = mesh.indices[i], b = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+        auto& use = uses[std::minmax(number[a], number[b])];
+        ++use.first, use.second = {a, b};
+    }
+    std::vector<glm::dvec3> points;
+    for (const auto& [edge, use] : uses)
+        if (use.first == 1)
+            for (const auto i : use.second) points.push_back(glm::dvec3(mesh.positions[i]) + mesh.pivot);
+    return points;
+}
+
+class Shapes : public testing::Test {
+protected:
+    void SetUp() override {
+        if (dataFolder().empty()) GTEST_SKIP() << "LIMN_TEST_DATA names no folder of test data";
+    }
+};
+
+TEST_F(Shapes, areFiniteAndWithoutCracks) {
+    for (const auto& path : shapes("osd_shapes")) {
+        Cage cage = readCage(path);
+        cage.options.level = 3;
+        TriMesh mesh, safe;
+        try {
+            mesh = subdivide(cage.mesh, cage.options, {true, true, false}, path.string());
+            cage.options.safe = true;
+            safe = subdivide(cage.mesh, cage.options, {true, true, false}, path.string());
+        } catch (const Error& error) {
+            // Only shapes whose rule leaves nothing may come to nothing.
+            EXPECT_EQ(cage.options.boundary, BoundaryRule::none) << path << error.message;
+            continue;
+        }
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+            const auto& p = mesh.positions[mesh.indices[i]];
+            const auto& n = mesh.normals[mesh.normalIndices[i]];
+            ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << path;
+            ASSERT_NEAR(glm::length(n), 1, 1e-5) << path;
+        }
+        EXPECT_EQ(openEdges(mesh), openEdges(safe)) << path;
+    }
+}
+
+TEST_F(Shapes, lieOnTheLimitSurface) {
+    std::size_t total = 0;
+    for (const auto& path : shapes("osd_shapes")) {
+        Cage cage = readCage(path);
+        const auto regular = [&](std::size_t sides) { return std::adjacent_find(cage.mesh.faceStart.begin(), cage.mesh.faceStart.end(), [&](auto a, auto b) { return b - a != sides; }) == cage.mesh.faceStart.end(); };
+        // Faces of other sizes are cut in other places; the next test looks at those.
+        if (!regular(cage.options.scheme == SubdivisionScheme::loop ? 3 : 4) || cage.options.boundary == BoundaryRule::none) continue;
+        // Uniform refinement, the oracle, goes six levels deep: creases must have gone smooth by then.
+        const auto outlasts = [](float sharpness) { return sharpness > 6 && sharpness < kInfiniteSharpness; };
+        if (std::any_of(cage.mesh.tags.creases.begin(), cage.mesh.tags.creases.end(), [&](const auto& c) { return outlasts(c.sharpness); })) continue;
+        cage.options.level = 3;
+        const TriMesh mesh = subdivide(cage.mesh, cage.options, {true, true, false}, path.string());
+        const Corners bfr = cornersOf(mesh);
+        cage.options.safe = true;
+        const Corners safe = cornersOf(subdivide(cage.mesh, cage.options, {true, true, false}, path.string()));
+        // Where an infinitely sharp crease ends in a dart, uniform refinement halves its own error with each level: 1e-4 is left of it after
+        // six (7e-4 after three).
+        std::map<std::uint32_t, int> ends;
+        for (const auto& crease : cage.mesh.tags.creases)
+            if (crease.sharpness >= kInfiniteSharpness) ++ends[crease.a], ++ends[crease.b];
+        const bool dart = std::any_of(ends.begin(), ends.end(), [](const auto& end) { return end.second == 1; });
+        const double reach = (dart ? 2e-4 : 1e-5) * diagonal(safe.positions);
+        const PointSet bfrPoints(bfr.positions, reach), safePoints(safe.positions, reach);
+        // Where a surface has no one normal, both ways have a rule of their own: rims' corners, infinite creases and corners.
+        std::vector<glm::dvec3> singular = rimPoints(mesh);
+        for (const auto& corner : cage.mesh.tags.corners)
+            if (corner.sharpness >= kInfiniteSharpness) singular.push_back(cage.mesh.positions[corner.vertex]);
+        const PointSet singularPoints(singular, reach);
+        const bool oneNormal = cage.options.scheme != SubdivisionScheme::bilinear && path.string().find("nonman") == std::string::npos;
+        const double halfDegree = std::cos((dart ? 5 : 0.5) * std::acos(-1.0) / 180);
+        std::size_t astray = 0, bent = 0, uvAstray = 0, normals = 0;
+        for (const auto& p : bfr.positions) astray += safePoints.near(p).empty();
+        for (std::size_t i = 0; i < safe.positions.size(); ++i) {
+            const auto near = bfrPoints.near(safe.positions[i]);
+            astray += near.empty();
+            if (near.empty()) continue;
+            const bool crease = std::any_of(near.begin(), near.end(), [&](auto j) { return glm::dot(bfr.normals[near[0]], bfr.normals[j]) < halfDegree; });
+            if (oneNormal && !crease && singularPoints.near(safe.positions[i]).empty()) {
+                bent += glm::dot(safe.normals[i], bfr.normals[near[0]]) < static_cast<float>(halfDegree);
+                ++normals;
+            }
+            if (!safe.uvs.empty() && !bfr.uvs.empty()) uvAstray += std::none_of(near.begin(), near.end(), [&](auto j) { return glm::distance(safe.uvs[i], bfr.uvs[j]) < 1e-5f; });
+        }
+        total += normals;
+        EXPECT_EQ(astray, 0u) << "points: " << path << " of " << safe.positions.size();
+        EXPECT_EQ(uvAstray, 0u) << "uvs: " << path << " of " << safe.positions.size();
+        EXPECT_EQ(bent, 0u) << "normals: " << path << " of " << safe.positions.size();
+    }
+    EXPECT_GT(total, 500000u) << "normals that were compared";
+}
+
+TEST_F(Shapes, refineToWhatHbrMade) {
+    int checked = 0;
+    for (const auto& path : shapes("osd_hbr_baseline")) {
+        const std::string stem = path.stem().string(), name = stem.substr(0, stem.find("_level"));
+        const int level = stem.back() == '0' ? 1 : 3;
+        // By design: OpenSubdiv's Chaikin rule is not Hbr's after the first levels, and hierarchical edits are not applied.
+        if (stem == "catmark_chaikin1_level2" || stem == "loop_chaikin1_level2" || name.find("hedit") != std::string::npos) continue;
+        Cage cage = readCage(dataFolder() / "osd_shapes" / (name + ".obj"));
+        cage.options.level = level;
+        cage.options.limit = false;
+        const PolyMesh refined = refineUniformly(cage.mesh, cage.options, false);
+        const PolyMesh baseline = readObj(path).mesh;
+        // The flap's coordinates have more digits than the six that the file prints.
+        const double reach = (name == "catmark_flap" ? 2e-6 : 1e-6) * diagonal(baseline.positions);
+        const PointSet ours(refined.positions, reach), theirs(baseline.positions, reach);
+        std::size_t astray = 0;
+        for (const auto& p : refined.positions) astray += theirs.near(p).empty();
+        for (const auto& p : baseline.positions) astray += ours.near(p).empty();
+        EXPECT_EQ(astray, 0u) << stem << ": of " << refined.positions.size() << " and " << baseline.positions.size();
+        ++checked;
+    }
+    EXPECT_GT(checked, 50);
+}
+
+}  // namespace
+}  // namespace limn
