@@ -203,7 +203,7 @@ ShadowLayout shadowLayout(std::span<const Light> lights) {
     return layout;
 }
 
-GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, const gl::Limits& limits) : needs_(needs) {
+GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits) : needs_(needs), meshOf_(meshOf.begin(), meshOf.end()) {
     if (!has(needs, SceneData::positions)) return;
     const auto most = static_cast<std::uint64_t>(limits.maxBufferTexels);
     if (countAll(meshes, &TriMesh::indices) / 3 > most || countAll(meshes, &TriMesh::positions) > most)
@@ -232,7 +232,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, Scen
     std::vector<gl::DrawCommand> commands;
     std::vector<std::uint32_t> numbers;
     for (const auto& instance : scene.instances) {
-        const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
+        const auto& place = places_[static_cast<std::size_t>(meshOf_[numbers.size()])];
         materialTables_.push_back(static_cast<std::uint32_t>(words.size()));
         words.insert(words.end(), instance.materials.begin(), instance.materials.end());
         const auto number = static_cast<std::uint32_t>(numbers.size());
@@ -330,7 +330,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
     std::vector<GpuInstance> instances;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
-        const auto& place = places_[static_cast<std::size_t>(instance.mesh)];
+        const auto& place = places_[static_cast<std::size_t>(meshOf_[i])];
         const glm::dmat3 linear = invertible(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
         const glm::dvec3 pivot = view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(place.pivot, 1)));
         const glm::dmat3 inverse = glm::inverse(linear);

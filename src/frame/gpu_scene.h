@@ -39,7 +39,7 @@ ShadowLayout shadowLayout(std::span<const Light> lights);
 class GpuScene {
 public:
     /// `meshes` may be released afterwards. Reads the textures' files when the plan needs them.
-    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, SceneData needs, const gl::Limits& limits);
+    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits);
 
     /// Recomputes what depends on the camera: instance transforms in double precision, lights.
     void setView(const DrawScene& scene, const View& view);
@@ -58,6 +58,7 @@ private:
     struct AtlasEntry { glm::ivec3 place{0}; int levels = 0; glm::ivec2 size{0}; };   ///< place: x, y, layer
     std::vector<AtlasEntry> atlasEntries_;        ///< of each material
     SceneData needs_;
+    std::vector<int> meshOf_;           ///< of each instance: index into places_
     gl::Buffer positions_, normals_, uvs_, indices_, normalIndices_, uvIndices_, words_, instances_, materials_, lights_, commands_, instanceNumbers_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_, wordsView_, instancesView_, materialsView_;
     gl::Texture atlas_;

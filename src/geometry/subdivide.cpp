@@ -1,8 +1,8 @@
 #include "geometry/subdivide.h"
 
 #include "base/error.h"
-#include "geometry/bfr.h"
 #include "geometry/far.h"
+#include "geometry/tessellate.h"
 #include "geometry/topology.h"
 
 #include <fmt/format.h>
@@ -126,7 +126,7 @@ std::string describe(const SubdivisionOptions& options, const std::string& edgeL
     constexpr const char* schemes[] = {"catmull-clark", "loop", "bilinear"};
     std::string text = fmt::format("{}, {}, {}", schemes[static_cast<int>(options.scheme)], edgeLength.empty() ? fmt::format("level {}", options.level) : fmt::format("edges of {}, at most level {}", edgeLength, options.level), options.limit ? "limit surface" : "plain refinement");
     text += fmt::format(", {} face{} in {} component{}", report.faces, report.faces == 1 ? "" : "s", report.components, report.components == 1 ? "" : "s");
-    if (report.safeComponents > 0) text += fmt::format("; {} refined uniformly: {}", report.safeComponents == report.components ? "all" : std::to_string(report.safeComponents), report.safeReason);
+    if (report.safeComponents > 0) text += fmt::format("; {} taken the safe way: {}", report.safeComponents == report.components ? "all" : std::to_string(report.safeComponents), report.safeReason);
     if (report.plainFaces > 0) text += fmt::format("; {} faces are too large and drawn as they are", report.plainFaces);
     if (report.missingCreases > 0) text += fmt::format("; {} creases lie on no edge", report.missingCreases);
     if (report.splitFaces > 0) text += fmt::format("; {} faces cut into triangles", report.splitFaces);
@@ -148,12 +148,15 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     TriMesh out;
     out.pivot = pivot;
     // The layout for vertex pipelines is made in one place, from polygons: those subdivide uniformly.
-    if (goes(Way::bfr) && !needs.unified) out = tessellateByBfr(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs, pivot);
+    if (goes(Way::bfr) && !needs.unified) out = tessellate(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs, pivot, true);
     const auto addPolygons = [&](const PolyMesh& mesh) {
         if (mesh.faceCount() > 0) append(out, triangulateMesh(mesh, needs, pivot));
     };
     if (goes(Way::bfr) && needs.unified) addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs.normals));
-    if (goes(Way::safe)) addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs.normals));
+    // Far's patches, evaluated like Bfr's: they take any rates, and unlike uniform refinement know the limit of a vertex with two faces.
+    const bool patches = options.limit && !options.safe && (!options.chaikin || options.edgeRate) && options.scheme != SubdivisionScheme::bilinear && !needs.unified;
+    if (goes(Way::safe) && patches) append(out, tessellate(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs, pivot, false));
+    else if (goes(Way::safe)) addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs.normals));
     if (goes(Way::plain)) addPolygons(part(cage, ways.ofFace, Way::plain));
     if (out.triangleCount() == 0) throw Error(ExitCode::badData, {name}, "subdivision leaves no surface", "holes or the boundary rule remove every face: change 'boundary', or leave 'subdivision' out");
     if (!needs.unified) numberByLastVertex(out);

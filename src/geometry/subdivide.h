@@ -1,9 +1,9 @@
 // Subdivision surfaces through OpenSubdiv: the limit surface as triangles, or the refined polygons.
 //
-// Two ways. Bfr evaluates the limit surface face by face, in parallel, with a rate of its own for each edge; each vertex and edge point is
-// evaluated once, by the first face on it, and shared, so that there are no cracks. Far refines everything uniformly and projects onto the
-// limit: for plain refinement, for Chaikin creases (where Bfr cracks by 5e-4 of the diagonal), and for connected components that have an
-// interior vertex of two faces (where Bfr 3.5 writes out of bounds).
+// Three ways. Bfr evaluates the limit surface face by face, in parallel, with a rate of its own for each edge; each vertex and edge point is
+// evaluated once, by the first face on it, and shared, so that there are no cracks. Far's adaptive patches do the same for connected
+// components that have an interior vertex of two faces, where Bfr 3.5 writes out of bounds. Far's uniform refinement serves plain
+// refinement and Chaikin creases (where Bfr cracks by 5e-4 of the diagonal), and is the tests' oracle.
 #pragma once
 
 #include "geometry/tri_mesh.h"

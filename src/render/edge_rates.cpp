@@ -29,7 +29,9 @@ struct Viewer {
         const double depth = -middle.z, reach = depth + room;
         if (reach <= 0) return 0;
         if (middle.x < low.x * reach - room || middle.x > high.x * reach + room || middle.y < low.y * reach - room || middle.y > high.y * reach + room) return 0;
-        const double nearest = std::max(std::min(-p.z, -q.z), 0.01 * length);
+        // What is in the picture at that distance is no nearer along the axis than this, whatever lies beside the camera or behind it.
+        const double corner = 1 / std::sqrt(1 + std::max(glm::dot(low, low), glm::dot(high, high)));
+        const double nearest = std::max({std::min(-p.z, -q.z), (glm::length(middle) - length / 2) * corner, 0.05 * length});
         return length * pixelsPerUnit / nearest;
     }
     bool operator==(const Viewer&) const = default;
@@ -37,8 +39,8 @@ struct Viewer {
 
 }  // namespace
 
-std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::size_t mesh, const RenderConfig& config) {
-    const auto wanted = loaded.scene.meshes[mesh].subdivision.wantedEdge();
+std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::size_t number, const RenderConfig& config) {
+    const auto wanted = loaded.scene.meshes[meshIndex(loaded.scene, loaded.scene.instances[number].base.mesh)].subdivision.wantedEdge();
     if (!wanted) return {};
     auto viewers = std::make_shared<std::vector<Viewer>>();
     const FrameRange frames = loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
@@ -46,19 +48,17 @@ std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedS
         const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
         const View view = makeView(scene.camera, scene.info, {.imageSize = config.image.size});
         const glm::dvec2 size(config.image.size);
-        for (const auto& instance : scene.instances) {
-            if (instance.mesh != static_cast<int>(mesh)) continue;
-            glm::dmat4 toView(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
-            toView[3] = glm::dvec4(view.toView(glm::dvec3(instance.worldFromMesh[3])), 1);
-            const glm::dmat3 linear(instance.worldFromMesh);
-            const Viewer viewer{toView, std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}), view.orthographic, 1 / view.rayScale.x, view.rayOffset, size * view.rayScale + view.rayOffset};
-            if (std::find(viewers->begin(), viewers->end(), viewer) == viewers->end()) viewers->push_back(viewer);
-        }
+        const auto& instance = scene.instances[number];
+        glm::dmat4 toView(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
+        toView[3] = glm::dvec4(view.toView(glm::dvec3(instance.worldFromMesh[3])), 1);
+        const glm::dmat3 linear(instance.worldFromMesh);
+        const Viewer viewer{toView, std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}), view.orthographic, 1 / view.rayScale.x, view.rayOffset, size * view.rayScale + view.rayOffset};
+        if (std::find(viewers->begin(), viewers->end(), viewer) == viewers->end()) viewers->push_back(viewer);
     }
     return [viewers, wanted = *wanted](const glm::dvec3& a, const glm::dvec3& b) {
         double segments = 1;
         for (const auto& viewer : *viewers) segments = std::max(segments, (wanted.isPixels ? viewer.pixels(a, b) : glm::distance(a, b) * viewer.worldScale) / wanted.amount);
-        return static_cast<int>(std::ceil(std::min(segments, 1e6)));
+        return static_cast<int>(std::lround(std::min(segments, 1e6)));
     };
 }
 

@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Segments per edge of a mesh for its `edge_length`, or nothing when it has none. Pixels are measured as the nearest camera of all declared
+/// Segments per edge of an instance's mesh for its `edge_length`, or nothing when it has none. Pixels are measured as the nearest camera of all declared
 /// frames sees the edge, whatever frames are drawn, so that every subset of frames has the same triangles; edges that no frame sees are not
-/// cut. Scene units are measured on the largest instance.
-std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::size_t mesh, const RenderConfig& config);
+/// cut.
+std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::size_t instance, const RenderConfig& config);
 
 }  // namespace limn

@@ -16,11 +16,6 @@
 namespace limn {
 namespace {
 
-std::size_t meshIndex(const Scene& scene, const std::string& name) {
-    const auto it = std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { return mesh.name == name; });
-    return static_cast<std::size_t>(it - scene.meshes.begin());
-}
-
 bool isObj(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -69,6 +64,11 @@ private:
 };
 
 }  // namespace
+
+std::size_t meshIndex(const Scene& scene, const std::string& name) {
+    const auto it = std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { return mesh.name == name; });
+    return static_cast<std::size_t>(it - scene.meshes.begin());
+}
 
 std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh) {
     const SubdivisionSettings& settings = source.subdivision;

@@ -15,6 +15,9 @@ struct LoadedMesh {
     std::vector<MeshWarning> warnings;
 };
 
+/// Index into Scene::meshes.
+std::size_t meshIndex(const Scene& scene, const std::string& name);
+
 /// How a mesh of the scene is to be subdivided, tags and settings together; nullopt: not at all. `edgeRate` is left out.
 std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh);
 

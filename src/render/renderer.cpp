@@ -197,21 +197,34 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
     const std::string fittedTo = fitted ? fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y) : "";
     if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes) return *gpuScene_;
     Stopwatch watch(times);
-    std::vector<TriMesh> meshes(loaded.meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
-        const PolyMesh& poly = loaded.meshes[i].poly;
-        if (poly.faceCount() == 0) return;
-        const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)};
-        if (auto subdivision = subdivisionOf(loaded.scene.meshes[i], poly)) {
-            subdivision->edgeRate = edgeRates(loaded, i, config);
-            meshes[i] = subdivide(poly, *subdivision, meshNeeds, loaded.scene.meshes[i].file);
+    // Edges that are cut to look smooth to the camera need a mesh per instance; else instances share theirs.
+    struct Build { std::size_t mesh; std::optional<std::size_t> instance; };
+    std::vector<Build> builds;
+    std::vector<int> meshOf;
+    std::vector<int> shared(loaded.meshes.size(), -1);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(scene.instances[i].mesh);
+        const bool own = loaded.scene.meshes[mesh].subdivision.wantedEdge().has_value();
+        if (own || shared[mesh] < 0) {
+            if (!own) shared[mesh] = static_cast<int>(builds.size());
+            meshOf.push_back(static_cast<int>(builds.size()));
+            builds.push_back({mesh, own ? std::optional(i) : std::nullopt});
         } else {
-            meshes[i] = buildTriMesh(poly, meshNeeds);
+            meshOf.push_back(shared[mesh]);
         }
+    }
+    const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)};
+    std::vector<TriMesh> meshes(builds.size());
+    tbb::parallel_for(std::size_t{0}, builds.size(), [&](std::size_t i) {
+        const PolyMesh& poly = loaded.meshes[builds[i].mesh].poly;
+        auto subdivision = subdivisionOf(loaded.scene.meshes[builds[i].mesh], poly);
+        if (!subdivision) return void(meshes[i] = buildTriMesh(poly, meshNeeds));
+        if (builds[i].instance) subdivision->edgeRate = edgeRates(loaded, *builds[i].instance, config);
+        meshes[i] = subdivide(poly, *subdivision, meshNeeds, loaded.scene.meshes[builds[i].mesh].file);
     });
     watch.lap("of which triangles");
     gpuScene_ = nullptr;   // gives the old one's memory back first
-    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, needs, device_.limits());
+    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits());
     watch.lap("of which upload");
     gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs, gpuSceneFittedTo_ = fittedTo;
     return *gpuScene_;

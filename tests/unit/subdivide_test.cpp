@@ -154,7 +154,10 @@ TEST_F(Shapes, areFiniteAndWithoutCracks) {
             ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << path;
             ASSERT_NEAR(glm::length(n), 1, 1e-5) << path;
         }
-        EXPECT_EQ(openEdges(mesh), openEdges(safe)) << path;
+        // As many as uniform refinement leaves open, which shares every point; where it does not know a vertex's limit (two faces), as
+        // many as the cage's open edges were cut into.
+        const std::size_t open = openEdges(mesh);
+        if (open != openEdges(safe)) EXPECT_EQ(open, analyseTopology(cage.mesh).boundaryEdges * 8) << path;
     }
 }
 

@@ -1,6 +1,6 @@
-#include "geometry/bfr.h"
+#include "geometry/tessellate.h"
 
-#include "geometry/far.h"
+#include "geometry/far_limit.h"
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
@@ -20,6 +20,8 @@ namespace {
 
 using namespace OpenSubdiv;
 using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
+
+const Bfr::Surface<double>::PointDescriptor kPoint(3), kUv(2);
 
 /// How a face is cut: the same for all faces of a size with the same rates.
 struct Pattern {
@@ -56,19 +58,17 @@ glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
 
 class Tessellator {
 public:
-    Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot)
-        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), withUvs_(needs.uvs && !cage.cornerUv.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
+    Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot, bool byBfr)
+        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), byBfr_(byBfr), withUvs_(needs.uvs && !cage.cornerUv.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
 
     TriMesh run() {
         findRates();
         findSharpPlaces();
+        for (const auto& p : cage_.positions) points_.push_back(p - pivot_);
+        if (withUvs_) uvPoints_ = uvValues(cage_);
+        if (!byBfr_) patches_ = std::make_unique<FarLimit>(*refiner_, std::clamp(levelsOfCreases(cage_.tags), 6, 9), points_, uvPoints_);
         const Factory factory(*refiner_, factoryOptions());
         layOut(factory);
-        points_.resize(cage_.positions.size() * 3);
-        for (std::size_t i = 0; i < cage_.positions.size(); ++i)
-            for (int k = 0; k < 3; ++k) points_[3 * i + static_cast<std::size_t>(k)] = cage_.positions[i][k] - pivot_[k];
-        if (withUvs_)
-            for (const auto& uv : uvValues(cage_)) uvPoints_.push_back(uv.x), uvPoints_.push_back(uv.y);
         tbb::enumerable_thread_specific<Scratch> scratch;
         tbb::parallel_for(0, base_.GetNumFaces(), [&](int f) { evaluate(factory, f, scratch.local()); });
         mendNormals();
@@ -77,6 +77,8 @@ public:
 
 private:
     struct Scratch {
+        int face = 0;
+        Bfr::Parameterization parameterization;
         Bfr::Surface<double> surface, uvSurface;
         std::vector<double> patch, uvPatch;
         std::map<std::vector<int>, Pattern> patterns;
@@ -211,9 +213,13 @@ private:
         const auto f = static_cast<std::size_t>(face);
         if (!drawn_[f]) return;
         const Pattern& pattern = patternOf(factory, face, s.patterns);
-        factory.InitVertexSurface(face, &s.surface);
-        s.patch.resize(static_cast<std::size_t>(s.surface.GetNumPatchPoints()) * 3);
-        s.surface.PreparePatchPoints(points_.data(), Bfr::Surface<double>::PointDescriptor(3), s.patch.data(), Bfr::Surface<double>::PointDescriptor(3));
+        s.face = face;
+        s.parameterization = factory.GetFaceParameterization(face);
+        if (byBfr_) {
+            factory.InitVertexSurface(face, &s.surface);
+            s.patch.resize(static_cast<std::size_t>(s.surface.GetNumPatchPoints()) * 3);
+            s.surface.PreparePatchPoints(&points_.data()->x, kPoint, s.patch.data(), kPoint);
+        }
 
         std::vector<Place> places(pattern.coords.size());
         const auto vertices = base_.GetFaceVertices(face);
@@ -246,20 +252,17 @@ private:
             const bool normal = needs_.normals && place.writesNormal;
             if (!place.writesPosition && !normal) continue;
             glm::dvec3 point, du, dv;
-            if (normal) s.surface.Evaluate(&pattern.coords[i].x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x, &du.x, &dv.x);
-            else s.surface.Evaluate(&pattern.coords[i].x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x);
+            evaluateAt(s, pattern.coords[i], point, du, dv);
             if (place.writesPosition) out_.positions[place.position] = point;
             if (normal) out_.normals[place.normal] = normalAt(s, pattern.coords[i], du, dv);
         }
         if (withUvs_) {
-            factory.InitFaceVaryingSurface(face, &s.uvSurface, 0);
-            s.uvPatch.resize(static_cast<std::size_t>(s.uvSurface.GetNumPatchPoints()) * 2);
-            s.uvSurface.PreparePatchPoints(uvPoints_.data(), Bfr::Surface<double>::PointDescriptor(2), s.uvPatch.data(), Bfr::Surface<double>::PointDescriptor(2));
-            for (std::size_t i = 0; i < pattern.coords.size(); ++i) {
-                glm::dvec2 uv;
-                s.uvSurface.Evaluate(&pattern.coords[i].x, s.uvPatch.data(), Bfr::Surface<double>::PointDescriptor(2), &uv.x);
-                out_.uvs[uvStart_[f] + i] = uv;
+            if (byBfr_) {
+                factory.InitFaceVaryingSurface(face, &s.uvSurface, 0);
+                s.uvPatch.resize(static_cast<std::size_t>(s.uvSurface.GetNumPatchPoints()) * 2);
+                s.uvSurface.PreparePatchPoints(&uvPoints_.data()->x, kUv, s.uvPatch.data(), kUv);
             }
+            for (std::size_t i = 0; i < pattern.coords.size(); ++i) out_.uvs[uvStart_[f] + i] = uvAt(s, pattern.coords[i]);
         }
         const std::size_t first = triangleStart_[f];
         for (std::size_t i = 0; i < pattern.facets.size(); ++i) {
@@ -274,6 +277,30 @@ private:
         }
     }
 
+    /// Far's patches know the quarters of irregular faces by their corner.
+    static std::pair<int, glm::dvec2> partOf(const Scratch& s, const glm::dvec2& uv) {
+        if (!s.parameterization.HasSubFaces()) return {0, uv};
+        glm::dvec2 within;
+        const int part = s.parameterization.ConvertCoordToNormalizedSubFace(&uv.x, &within.x);
+        return {part, within};
+    }
+
+    void evaluateAt(const Scratch& s, const glm::dvec2& uv, glm::dvec3& point, glm::dvec3& du, glm::dvec3& dv) const {
+        if (byBfr_) return void(s.surface.Evaluate(&uv.x, s.patch.data(), kPoint, &point.x, &du.x, &dv.x));
+        const auto [part, st] = partOf(s, uv);
+        patches_->evaluate(s.face, part, st, point, du, dv);
+    }
+
+    glm::dvec2 uvAt(const Scratch& s, const glm::dvec2& at) const {
+        glm::dvec2 uv;
+        if (byBfr_) {
+            s.uvSurface.Evaluate(&at.x, s.uvPatch.data(), kUv, &uv.x);
+            return uv;
+        }
+        const auto [part, st] = partOf(s, at);
+        return patches_->uv(s.face, part, st);
+    }
+
     /// Derivatives vanish at smooth corners of rims, collapsed edges and the like: there the normal just inside the face is the limit.
     glm::vec3 normalAt(Scratch& s, const glm::dvec2& uv, glm::dvec3 du, glm::dvec3 dv) const {
         const auto unit = [](const glm::dvec3& a, const glm::dvec3& b) {
@@ -282,11 +309,11 @@ private:
             return product > 0 && glm::length(n) > 1e-7 * product ? glm::normalize(n) : glm::dvec3(0);
         };
         glm::dvec3 n = unit(du, dv);
-        const glm::dvec2 centre = inwards(s.surface.GetParameterization(), uv);
+        const glm::dvec2 centre = inwards(s.parameterization, uv);
         for (double step = 1e-4; glm::dot(n, n) == 0 && step < 0.2; step *= 10) {
             const glm::dvec2 inside = glm::mix(uv, centre, step);
             glm::dvec3 point;
-            s.surface.Evaluate(&inside.x, s.patch.data(), Bfr::Surface<double>::PointDescriptor(3), &point.x, &du.x, &dv.x);
+            evaluateAt(s, inside, point, du, dv);
             n = unit(du, dv);
         }
         return n;
@@ -330,18 +357,20 @@ private:
     const SubdivisionOptions& options_;
     const MeshNeeds& needs_;
     glm::dvec3 pivot_;
-    bool withUvs_;
+    bool byBfr_, withUvs_;
     std::unique_ptr<Far::TopologyRefiner> refiner_;
     const Far::TopologyLevel& base_;
     std::vector<int> rate_, vertexOwner_, edgeOwner_;
     std::vector<char> sharpEdge_, sharpVertex_, drawn_;
     std::vector<std::uint32_t> edgeStart_, interiorStart_, normalStart_, uvStart_, triangleStart_;
-    std::vector<double> points_, uvPoints_;
+    std::vector<glm::dvec3> points_;       ///< of the cage, relative to the pivot
+    std::vector<glm::dvec2> uvPoints_;
+    std::unique_ptr<FarLimit> patches_;    ///< unless by Bfr
     TriMesh out_;
 };
 
 }  // namespace
 
-TriMesh tessellateByBfr(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot) { return Tessellator(cage, options, needs, pivot).run(); }
+TriMesh tessellate(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot, bool byBfr) { return Tessellator(cage, options, needs, pivot, byBfr).run(); }
 
 }  // namespace limn
