@@ -169,13 +169,17 @@ def obj_text(mesh, slots, subsurf):
     layer = mesh.uv_layers.active
     if layer:
         known = {}
-        for loop, item in zip(mesh.loops, layer.data):
-            # One value per vertex and place: equal UVs of different vertices stay apart, so that seams are where Blender has them.
-            key = (loop.vertex_index, item.uv[0], item.uv[1])
-            if key not in known:
-                known[key] = len(known) + 1
-                uv_lines.append("vt %s %s" % (number(item.uv[0]), number(item.uv[1])))
-            uv_index.append(known[key])
+        uv_index = [0] * len(mesh.loops)
+        for polygon in mesh.polygons:
+            uvs = [layer.data[corner].uv for corner in polygon.loop_indices]
+            winding = sum((a[0] - b[0]) * (a[1] + b[1]) for a, b in zip(uvs[-1:] + uvs[:-1], uvs)) > 0
+            for corner, uv in zip(polygon.loop_indices, uvs):
+                # Blender's seams: UVs are one where vertex, place and the direction of the face in the map are the same.
+                key = (mesh.loops[corner].vertex_index, uv[0], uv[1], winding)
+                if key not in known:
+                    known[key] = len(known) + 1
+                    uv_lines.append("vt %s %s" % (number(uv[0]), number(uv[1])))
+                uv_index[corner] = known[key]
     lines += uv_lines
     normal_index = []
     if subsurf is None:

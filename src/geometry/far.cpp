@@ -118,8 +118,8 @@ void takeDeepUvs(const Far::TopologyRefiner& refiner, int level, int depth, cons
 }
 
 /// Uniform refinement quadruples faces per level; sharper creases than this stay sharp on the safe path.
-constexpr int kDeepest = 6;
-constexpr std::size_t kMostFaces = std::size_t{1} << 20;
+constexpr int kDeepest = 9, kDeepestForDarts = 6;
+constexpr std::size_t kMostFaces = std::size_t{1} << 21;
 
 /// Does an infinitely sharp crease end anywhere?
 bool hasDart(const SubdivisionTags& tags) {
@@ -209,7 +209,7 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     const bool toLimit = options.limit && options.scheme != SubdivisionScheme::bilinear;
     int depth = options.level;
     if (toLimit)
-        for (const int wanted = hasDart(cage.tags) ? kDeepest : std::min(levelsOfCreases(cage.tags), kDeepest); depth < wanted && cage.faceCount() << (2 * depth) < kMostFaces;) ++depth;
+        for (const int wanted = std::max(hasDart(cage.tags) ? kDeepestForDarts : 0, std::min(levelsOfCreases(cage.tags), kDeepest)); depth < wanted && cage.faceCount() << (2 * depth) < kMostFaces;) ++depth;
     Far::TopologyRefiner::UniformOptions uniform(depth);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);

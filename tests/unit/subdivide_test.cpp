@@ -157,7 +157,9 @@ TEST_F(Shapes, areFiniteAndWithoutCracks) {
         // As many as uniform refinement leaves open, which shares every point; where it does not know a vertex's limit (two faces), as
         // many as the cage's open edges were cut into.
         const std::size_t open = openEdges(mesh);
-        if (open != openEdges(safe)) EXPECT_EQ(open, analyseTopology(cage.mesh).boundaryEdges * 8) << path;
+        if (open != openEdges(safe)) {
+            EXPECT_EQ(open, analyseTopology(cage.mesh).boundaryEdges * 8) << path;
+        }
     }
 }
 
