@@ -139,7 +139,7 @@ scene.place("cornice", (0, 2.58, -1.94))
 # Window: frame, mullions, sill, glass behind, curtains on a rod.
 window = Mesh()
 window.add(box(0.07, 1.4, 0.10, "white", 0.008, 2), (-0.415, 0, 0)).add(box(0.07, 1.4, 0.10, "white", 0.008, 2), (0.915, 0, 0))
-window.add(box(1.4, 0.07, 0.10, "white", 0.008, 2), (0.25, 0, 0)).add(box(1.4, 0.07, 0.10, "white", 0.008, 2), (0.25, 1.33, 0))
+window.add(box(1.38, 0.07, 0.10, "white", 0.008, 2), (0.25, 0, 0)).add(box(1.38, 0.07, 0.10, "white", 0.008, 2), (0.25, 1.33, 0))
 window.add(box(0.05, 1.3, 0.07, "white", 0.008, 2), (0.25, 0.05, 0))
 for y in (0.50, 0.93):
     window.add(box(1.3, 0.032, 0.05, "white", 0.006, 2), (0.25, y, 0))
@@ -277,7 +277,7 @@ def frame(width, height, content):
     for x in (-1, 1):
         mesh.add(box(0.045, height, 0.03, "walnut", 0.009, 3), (x * (width / 2 - 0.0225), 0, 0))
     for y in (0, height - 0.045):
-        mesh.add(box(width, 0.045, 0.03, "walnut", 0.009, 3), (0, y, 0))
+        mesh.add(box(width - 0.02, 0.045, 0.03, "walnut", 0.009, 3), (0, y, 0))
     mesh.add(box(width - 0.06, height - 0.06, 0.012, "paper", 0.002, 1), (0, 0.03, -0.004))
     inset = 0.10
     mesh.grid([[(x, y, 0.0035) for x in (-width / 2 + inset, width / 2 - inset)] for y in (inset, height - inset)], content)

@@ -75,7 +75,8 @@ def main():
     arguments = parser.parse_args()
     archives = sorted(glob.glob(FOLDER + "/*.sh3f"))
     if not archives:
-        sys.exit("install the package sweethome3d-furniture")
+        print("the package sweethome3d-furniture is not installed")
+        sys.exit(77)   # ctest: skipped
     with tempfile.TemporaryDirectory() as work:
         models = []
         for archive in archives:
