@@ -20,7 +20,7 @@ struct PlanOptions {
 
 ExitCode runPlan(const PlanOptions& options) {
     const RenderConfig config = readRenderConfig(options.config, options.overrides);
-    const LoadedScene loaded = loadScene(config.scene);
+    const LoadedScene loaded = loadScene(config);
     const int frame = options.frame ? options.frame : loaded.scene.firstFrame();
     std::vector<double> milliseconds;
     int maxTextureSize = 16384;
@@ -45,7 +45,7 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
     for (const auto& path : configs) {
         try {
             const RenderConfig config = readRenderConfig(path, overrides);
-            const LoadedScene loaded = loadScene(config.scene);
+            const LoadedScene loaded = loadScene(config);
             static_cast<void>(planConfig(config, loaded, loaded.scene.firstFrame()));
             log::info("{}: fine", path);
         } catch (const Error& error) {
@@ -66,6 +66,7 @@ void addPlan(CLI::App& app, Chosen& chosen) {
     command->add_option("CONFIG", options->config, "Config file, or an OBJ file")->required();
     command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4")->type_name("KEY=VALUE")->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
+    command->add_option("--subdivide", options->overrides.subdivide, "Take OBJ files as subdivision cages of this level")->type_name("N")->check(CLI::Range(0, 10));
     command->add_option("--frame", options->frame, "Frame to plan; the first declared one without it")->type_name("N");
     command->add_option("--format", options->format, "text, json or dot")->check(CLI::IsMember({"text", "json", "dot"}));
     command->add_flag("--measure", options->measure, "Draw a frame and add the milliseconds of each pass");

@@ -163,7 +163,7 @@ ExitCode run(const Options& options) {
     if (needsModule) preloadImageLibrary();
     // The next scene loads while the device starts or the one before is drawn.
     const auto startLoading = [&](std::size_t i) {
-        if (i < jobs.size()) jobs[i].loading = std::async(std::launch::async, loadScene, jobs[i].config.scene);
+        if (i < jobs.size()) jobs[i].loading = std::async(std::launch::async, [&config = jobs[i].config] { return loadScene(config); });
     };
     startLoading(0);
     Renderer renderer(deviceOptions, options.device.shaderFolder);
@@ -247,6 +247,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
     command->add_option("--output", options->output, "Where to: a file, a folder, or a pattern with {config} and #### for the frame")->type_name("PATTERN");
     command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4, edges.0.width=2px")->type_name("KEY=VALUE")->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
+    command->add_option("--subdivide", options->overrides.subdivide, "Draw OBJ files as Catmull-Clark surfaces of this level")->type_name("N")->check(CLI::Range(0, 10));
     command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")->type_name("X,Y,W,H");
     command->add_option("--threads", options->threads, "CPU threads; without it what the farm or the machine grants")->type_name("N")->check(CLI::Range(1, 4096));
     command->add_flag("--keep-going", options->keepGoing, "Draw the other frames when one fails (exit code 1)");

@@ -41,7 +41,7 @@ public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) : document_(std::move(document)), overrides_(overrides) {
         for (const auto& setting : overrides.settings) applySetting(document_, setting);
         config_.file = path;
-        config_.hash = Hash().add(canonicalText(document_)).add(overrides.camera).hex();
+        config_.hash = Hash().add(canonicalText(document_)).add(overrides.camera).add(overrides.subdivide ? std::to_string(*overrides.subdivide) : "").hex();
     }
 
     RenderConfig read() {
@@ -51,6 +51,7 @@ public:
         config_.accuracy = header.accuracy;
         config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
+        config_.subdivide = overrides_.subdivide;
         if (!header.scene.empty()) {
             config_.scene = pathIn(*document_.find("scene"));
             if (!fileExists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the file that names them", ExitCode::missingInput);

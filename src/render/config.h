@@ -34,6 +34,7 @@ struct RenderConfig {
     std::filesystem::path file;              ///< what it was read from
     std::filesystem::path scene;             ///< scene file, or an OBJ
     std::string camera;                      ///< empty: the scene's first
+    std::optional<int> subdivide;            ///< level for an OBJ that is the scene itself
     Accuracy accuracy = Accuracy::exact;
     ImageSettings image;
     TechniqueChoice geometry, shading, composite;
@@ -56,6 +57,7 @@ std::vector<ConfigSection> configSections();
 struct ConfigOverrides {
     std::vector<std::string> settings;       ///< KEY=VALUE
     std::string camera;
+    std::optional<int> subdivide;            ///< draw OBJ files as Catmull-Clark surfaces of this level
 };
 
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).

@@ -95,11 +95,16 @@ void finishLoading(LoadedScene& loaded) {
     }
 }
 
-LoadedScene loadScene(const std::filesystem::path& path) {
+LoadedScene loadScene(const std::filesystem::path& path) { return loadScene(RenderConfig{.scene = path}); }
+
+LoadedScene loadScene(const RenderConfig& config) {
+    const std::filesystem::path& path = config.scene;
     LoadedScene loaded;
     std::vector<std::filesystem::path> files;
     if (isObj(path)) loaded.scene = sceneFromObj(path);
     else loaded.scene = readScene(path, &files);
+    if (config.subdivide && !isObj(path)) throw Error(ExitCode::usage, {path.string()}, "--subdivide is for OBJ files; a scene says itself what is subdivided", "write subdivision = { level = 2 } under its [[mesh]]");
+    if (config.subdivide) loaded.scene.meshes.front().subdivision = {.present = true, .level = *config.subdivide};
 
     const auto& meshes = loaded.scene.meshes;
     loaded.meshes.resize(meshes.size());

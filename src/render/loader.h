@@ -34,6 +34,8 @@ void finishLoading(LoadedScene& loaded);
 
 /// Reads the scene that a config names and every mesh that is drawn, in parallel. All problems at once (Errors).
 LoadedScene loadScene(const std::filesystem::path& path);
+/// The scene of a config. Throws Error (usage) where `subdivide` is asked of a scene that says itself what is subdivided.
+LoadedScene loadScene(const RenderConfig& config);
 
 /// The scene at a frame. `cameraName` empty: the first camera, or one that frames the scene. Throws Error when there is no such camera.
 DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize);
