@@ -6,8 +6,10 @@
 #include "geometry/topology.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace limn {
 namespace {
@@ -20,6 +22,16 @@ struct Ways {
     std::vector<Way> ofFace;
     SubdivisionReport report;
 };
+
+/// Loop takes triangles only. And a face that meets itself, such as one with a hole that a doubled edge joins to the rim, leaves OpenSubdiv
+/// with vertices that have more faces than edges, which it reads past the end of.
+bool mustBeCut(const PolyMesh& mesh, std::size_t face, const SubdivisionOptions& options) {
+    const auto first = mesh.cornerPosition.begin() + mesh.faceStart[face], last = mesh.cornerPosition.begin() + mesh.faceStart[face + 1];
+    if (options.scheme == SubdivisionScheme::loop && last - first > 3) return true;
+    std::vector<std::uint32_t> corners(first, last);
+    std::sort(corners.begin(), corners.end());
+    return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
+}
 
 Ways chooseWays(const PolyMesh& cage, const SubdivisionOptions& options) {
     Ways ways;
@@ -55,7 +67,7 @@ Ways chooseWays(const PolyMesh& cage, const SubdivisionOptions& options) {
         ways.ofFace.push_back(ofComponent[components.ofFace[f]]);
         ways.report.safeFaces += ways.ofFace.back() == Way::safe;
         ways.report.plainFaces += ways.ofFace.back() == Way::plain;
-        if (options.scheme == SubdivisionScheme::loop) ways.report.splitFaces += cage.faceStart[f + 1] - cage.faceStart[f] > 3;
+        ways.report.splitFaces += mustBeCut(cage, f, options);
     }
     return ways;
 }
@@ -86,22 +98,24 @@ void append(TriMesh& to, const TriMesh& from) {
     joinWords(to.triangleMaterial, from.triangleMaterial), joinWords(to.trianglePart, from.trianglePart);
 }
 
-/// Loop takes triangles only: everything else is cut, as it would be to draw it.
-PolyMesh cutIntoTriangles(const PolyMesh& mesh) {
+/// Cuts faces that OpenSubdiv cannot take as it would cut them to draw them.
+PolyMesh cutIntoTriangles(const PolyMesh& mesh, const std::vector<char>& cut) {
     PolyMesh out = mesh;
     out.faceStart = {0}, out.cornerPosition.clear(), out.cornerUv.clear(), out.cornerNormal.clear(), out.faceMaterial.clear(), out.facePart.clear(), out.faceSmoothing.clear(), out.tags.holes.clear();
     for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
         const std::uint32_t start = mesh.faceStart[f];
         std::vector<glm::dvec3> polygon;
         for (std::uint32_t c = start; c < mesh.faceStart[f + 1]; ++c) polygon.push_back(mesh.positions[mesh.cornerPosition[c]]);
-        std::vector<std::uint32_t> corners{0, 1, 2};
-        if (polygon.size() > 3) corners = triangulatePolygon(polygon);
+        std::vector<std::uint32_t> corners(polygon.size());
+        std::iota(corners.begin(), corners.end(), 0u);
+        if (cut[f]) corners = triangulatePolygon(polygon);
+        const std::size_t sides = cut[f] ? 3 : corners.size();
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::uint32_t c = start + corners[i];
             out.cornerPosition.push_back(mesh.cornerPosition[c]);
             if (!mesh.cornerUv.empty()) out.cornerUv.push_back(mesh.cornerUv[c]);
             if (!mesh.cornerNormal.empty()) out.cornerNormal.push_back(mesh.cornerNormal[c]);
-            if (i % 3 != 2) continue;
+            if (i % sides != sides - 1) continue;
             if (std::binary_search(mesh.tags.holes.begin(), mesh.tags.holes.end(), static_cast<std::uint32_t>(f))) out.tags.holes.push_back(static_cast<std::uint32_t>(out.faceCount()));
             out.faceStart.push_back(static_cast<std::uint32_t>(out.cornerPosition.size()));
             out.faceMaterial.push_back(mesh.faceMaterial[f]), out.facePart.push_back(mesh.facePart[f]), out.faceSmoothing.push_back(mesh.faceSmoothing[f]);
@@ -134,13 +148,15 @@ std::string describe(const SubdivisionOptions& options, const std::string& edgeL
 }
 
 TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, const MeshNeeds& needs, const std::string& name, SubdivisionReport* report) {
-    const bool cut = options.scheme == SubdivisionScheme::loop && std::adjacent_find(given.faceStart.begin(), given.faceStart.end(), [](auto a, auto b) { return b - a != 3; }) != given.faceStart.end();
-    const PolyMesh triangles = cut ? cutIntoTriangles(given) : PolyMesh{};
-    const PolyMesh& cage = cut ? triangles : given;
+    std::vector<char> cut(given.faceCount());
+    tbb::parallel_for(std::size_t{0}, cut.size(), [&](std::size_t f) { cut[f] = mustBeCut(given, f, options); });
+    const auto cuts = static_cast<std::size_t>(std::count(cut.begin(), cut.end(), 1));
+    const PolyMesh pieces = cuts > 0 ? cutIntoTriangles(given, cut) : PolyMesh{};
+    const PolyMesh& cage = cuts > 0 ? pieces : given;
     const Ways ways = chooseWays(cage, options);
     if (report) {
         *report = ways.report;
-        if (cut) report->splitFaces = planSubdivision(given, options).splitFaces;
+        report->splitFaces = cuts;
     }
     const glm::dvec3 pivot = choosePivot(cage);
     const auto goes = [&](Way way) { return std::find(ways.ofFace.begin(), ways.ofFace.end(), way) != ways.ofFace.end(); };

@@ -44,7 +44,7 @@ struct SubdivisionReport {
     std::string safeReason;            ///< of those; "" when none
     std::size_t plainFaces = 0;        ///< beyond what OpenSubdiv takes at all; drawn as they are
     std::size_t missingCreases = 0;    ///< on edges that do not exist; ignored
-    std::size_t splitFaces = 0;        ///< cut into triangles for Loop
+    std::size_t splitFaces = 0;        ///< cut into triangles: n-gons for Loop, and faces that meet themselves
 };
 
 /// How a mesh would be subdivided.
