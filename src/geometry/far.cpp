@@ -233,14 +233,19 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     std::vector<glm::dvec3> limitNormals;
     if (toLimit) {
         std::vector<Value<3>> limit(points.size()), du(points.size()), dv(points.size());
-        primvars.Limit(points, limit, du, dv);
+        // Tangents at non-manifold vertices: OpenSubdiv 3.5 writes past the end of its masks. The normals of the faces around do instead.
+        const Far::TopologyLevel& base = refiner->GetLevel(0);
+        bool manifold = true;
+        for (int v = 0; v < base.GetNumVertices() && manifold; ++v) manifold = !base.IsVertexNonManifold(v);
+        if (manifold && wantNormals) primvars.Limit(points, limit, du, dv);
+        else primvars.Limit(points, limit);
         points.resize(static_cast<std::size_t>(last.GetNumVertices()));
         for (int v = 0; v < last.GetNumVertices(); ++v) {
             int deep = v;
             for (int l = options.level; l < depth; ++l) deep = refiner->GetLevel(l).GetVertexChildVertex(deep);
             const auto at = static_cast<std::size_t>(deep);
             points[static_cast<std::size_t>(v)] = limit[at];
-            if (wantNormals) limitNormals.push_back(unitOrZero(glm::cross(du[at].v, dv[at].v)));
+            if (wantNormals && manifold) limitNormals.push_back(unitOrZero(glm::cross(du[at].v, dv[at].v)));
         }
     }
     if (toLimit && withUvs) {

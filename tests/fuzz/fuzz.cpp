@@ -1,0 +1,38 @@
+// Fuzz targets for everything that reads text from strangers. One source, three programs: FUZZ_OBJ, FUZZ_MTL or FUZZ_CONFIG.
+//
+// Built and run by tests/fuzz/run.sh with clang, AddressSanitizer and UndefinedBehaviorSanitizer. Errors are answers; crashes are not.
+
+#include "config/document.h"
+#include "geometry/subdivide.h"
+#include "geometry/topology.h"
+#include "scene/obj.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    try {
+#if defined(FUZZ_OBJ)
+        // However the work is split, the same mesh; then all that is done to meshes.
+        limn::ObjFile file = limn::parseObj(text, "fuzz", 1 + static_cast<int>(size % 5));
+        limn::repairTopology(file.mesh, file.warnings);
+        static_cast<void>(limn::analyseTopology(file.mesh));
+        static_cast<void>(limn::buildTriMesh(file.mesh, {true, true, size % 2 == 0}));
+        limn::SubdivisionOptions options = limn::withTags({}, file.mesh.tags);
+        options.level = 1;
+        options.safe = size % 3 == 0;
+        if (file.mesh.faceCount() < 200) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false}, "fuzz"));
+#elif defined(FUZZ_MTL)
+        std::vector<limn::MeshWarning> warnings;
+        static_cast<void>(limn::parseMtl(text, ".", warnings));
+#else
+        static_cast<void>(limn::parseScene(limn::parseDocument(text, "fuzz"), "fuzz.toml"));
+#endif
+    } catch (const limn::Error&) {
+    } catch (const limn::Errors&) {
+    }
+    return 0;
+}

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Fuzzes the readers of OBJ, MTL and scene files.
+#
+#   tests/fuzz/run.sh SECONDS [obj|mtl|config]...
+#
+# Needs clang. Begins with the files of LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+seconds=$1
+shift
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || targets=(obj mtl config)
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}" >/dev/null
+for target in "${targets[@]}"; do
+    corpus=build/fuzz/corpus_$target
+    mkdir -p "$corpus"
+    case $target in obj) pattern='*.obj' ;; mtl) pattern='*.mtl' ;; *) pattern='*.toml' ;; esac
+    find scenes render_configs ${LIMN_TEST_DATA:+"$LIMN_TEST_DATA"} -name "$pattern" -size -20k -print0 | while IFS= read -r -d '' file; do cp -n "$file" "$corpus/$(echo "$file" | md5sum | cut -c1-16)"; done
+    echo "fuzzing $target for $seconds s"
+    build/fuzz/fuzz_"$target" -max_total_time="$seconds" -max_len=20000 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 -artifact_prefix=build/fuzz/ "$corpus" 2>&1 | grep -E 'stat::|ERROR|SUMMARY|Test unit' || true
+    [ "${PIPESTATUS[0]}" = 0 ] || exit 1
+done
