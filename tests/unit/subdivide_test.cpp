@@ -193,7 +193,9 @@ TEST_F(Shapes, lieOnTheLimitSurface) {
         for (const auto& corner : cage.mesh.tags.corners)
             if (corner.sharpness >= kInfiniteSharpness) singular.push_back(cage.mesh.positions[corner.vertex]);
         const PointSet singularPoints(singular, reach);
-        const bool oneNormal = cage.options.scheme != SubdivisionScheme::bilinear && path.string().find("nonman") == std::string::npos;
+        // Non-manifold cages have no oracle for normals: OpenSubdiv 3.5's limit tangents must not be asked of them.
+        const TopologyReport topology = analyseTopology(cage.mesh);
+        const bool oneNormal = cage.options.scheme != SubdivisionScheme::bilinear && topology.nonManifoldVertices == 0 && topology.nonManifoldEdges == 0;
         const double halfDegree = std::cos((dart ? 5 : 0.5) * std::acos(-1.0) / 180);
         std::size_t astray = 0, bent = 0, uvAstray = 0, normals = 0;
         for (const auto& p : bfr.positions) astray += safePoints.near(p).empty();
