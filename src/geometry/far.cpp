@@ -15,14 +15,7 @@ namespace limn {
 namespace {
 
 using namespace OpenSubdiv;
-
-/// What PrimvarRefiner interpolates.
-template <int N>
-struct Value {
-    glm::vec<N, double, glm::defaultp> v{0};
-    void Clear() { v = glm::vec<N, double, glm::defaultp>(0); }
-    void AddWithWeight(const Value& other, double weight) { v += other.v * weight; }
-};
+using far::Value;
 
 glm::dvec3 unitOrZero(const glm::dvec3& v) {
     const double length = glm::length(v);

@@ -8,6 +8,17 @@
 #include <memory>
 
 namespace limn {
+namespace far {
+
+/// What PrimvarRefiner interpolates: N numbers in double precision.
+template <int N>
+struct Value {
+    glm::vec<N, double, glm::defaultp> v{0};
+    void Clear() { v = glm::vec<N, double, glm::defaultp>(0); }
+    void AddWithWeight(const Value& other, double weight) { v += other.v * weight; }
+};
+
+}  // namespace far
 
 /// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without have the value after the last).
 /// Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left out. Throws Error (internal) if

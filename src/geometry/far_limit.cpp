@@ -4,18 +4,8 @@
 #include <opensubdiv/far/primvarRefiner.h>
 
 namespace limn {
-namespace {
-
 using namespace OpenSubdiv;
-
-template <int N>
-struct Value {
-    glm::vec<N, double, glm::defaultp> v{0};
-    void Clear() { v = glm::vec<N, double, glm::defaultp>(0); }
-    void AddWithWeight(const Value& other, double weight) { v += other.v * weight; }
-};
-
-}  // namespace
+using far::Value;
 
 FarLimit::FarLimit(Far::TopologyRefiner& refiner, int depth, const std::vector<glm::dvec3>& points, const std::vector<glm::dvec2>& uvs) : ptex_(refiner) {
     Far::PatchTableFactory::Options options(depth);

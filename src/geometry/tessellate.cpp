@@ -141,8 +141,8 @@ private:
         return known.emplace(std::move(key), std::move(pattern)).first->second;
     }
 
-    bool sharpAt(const Pattern&, int face, std::size_t corner, bool atVertex) const {
-        return atVertex ? sharpVertex_[static_cast<std::size_t>(base_.GetFaceVertices(face)[static_cast<int>(corner)])] : sharpEdge_[static_cast<std::size_t>(base_.GetFaceEdges(face)[static_cast<int>(corner)])];
+    bool sharpAt(int face, int corner, bool atVertex) const {
+        return atVertex ? sharpVertex_[static_cast<std::size_t>(base_.GetFaceVertices(face)[corner])] : sharpEdge_[static_cast<std::size_t>(base_.GetFaceEdges(face)[corner])];
     }
 
     /// Calls use(i, corner, k) for each boundary coord i of a face: k = 0 at the corner, else the k-th point of the edge after it.
@@ -166,7 +166,7 @@ private:
             interior[f] = static_cast<std::uint32_t>(pattern.interior());
             triangles[f] = static_cast<std::uint32_t>(pattern.facets.size() / 3);
             coords[f] = static_cast<std::uint32_t>(pattern.coords.size());
-            forBoundary(face, [&](std::size_t, int corner, int k) { ownNormals[f] += sharpAt(pattern, face, static_cast<std::size_t>(corner), k == 0); });
+            forBoundary(face, [&](std::size_t, int corner, int k) { ownNormals[f] += sharpAt(face, corner, k == 0); });
         });
         drawn_.resize(faces);
         for (std::size_t f = 0; f < faces; ++f) drawn_[f] = triangles[f] > 0;
@@ -252,7 +252,8 @@ private:
             const bool normal = needs_.normals && place.writesNormal;
             if (!place.writesPosition && !normal) continue;
             glm::dvec3 point, du, dv;
-            evaluateAt(s, pattern.coords[i], point, du, dv);
+            if (normal) evaluateAt(s, pattern.coords[i], point, du, dv);
+            else evaluateAt(s, pattern.coords[i], point);
             if (place.writesPosition) out_.positions[place.position] = point;
             if (normal) out_.normals[place.normal] = normalAt(s, pattern.coords[i], du, dv);
         }
@@ -289,6 +290,13 @@ private:
         if (byBfr_) return void(s.surface.Evaluate(&uv.x, s.patch.data(), kPoint, &point.x, &du.x, &dv.x));
         const auto [part, st] = partOf(s, uv);
         patches_->evaluate(s.face, part, st, point, du, dv);
+    }
+
+    /// Without the derivatives, which only normals need.
+    void evaluateAt(const Scratch& s, const glm::dvec2& uv, glm::dvec3& point) const {
+        if (byBfr_) return void(s.surface.Evaluate(&uv.x, s.patch.data(), kPoint, &point.x));
+        glm::dvec3 du, dv;
+        evaluateAt(s, uv, point, du, dv);
     }
 
     glm::dvec2 uvAt(const Scratch& s, const glm::dvec2& at) const {
