@@ -1,6 +1,7 @@
 #include "scene/obj.h"
 
 #include "base/file.h"
+#include "scene/obj_text.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,91 +17,6 @@ namespace {
 
 /// Beyond this the squares and products that shading needs leave float's range.
 constexpr double kLargestCoordinate = 1e20;
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-/// Reads words and numbers from one line.
-struct Cursor {
-    const char* at;
-    const char* end;
-
-    void skipBlanks() { while (at < end && isBlank(*at)) ++at; }
-    bool atEnd() { skipBlanks(); return at == end; }
-    std::string_view word() {
-        skipBlanks();
-        const char* start = at;
-        while (at < end && !isBlank(*at)) ++at;
-        return {start, static_cast<std::size_t>(at - start)};
-    }
-    std::string_view rest() {
-        skipBlanks();
-        const char* last = end;
-        while (last > at && isBlank(last[-1])) --last;
-        return {at, static_cast<std::size_t>(last - at)};
-    }
-    bool number(double& value) {
-        skipBlanks();
-        if (at < end && *at == '+') ++at;
-        const auto [next, status] = std::from_chars(at, end, value);
-        if (status == std::errc::result_out_of_range) {  // 1e999: as unusable as infinity, but well-formed
-            value = std::numeric_limits<double>::infinity();
-        } else if (status != std::errc()) {
-            return false;
-        }
-        at = next;
-        return at == end || isBlank(*at);
-    }
-    bool integer(std::int64_t& value) {
-        const auto [next, status] = std::from_chars(at, end, value);
-        if (status != std::errc()) return false;
-        at = next;
-        return true;
-    }
-};
-
-/// Calls `use(line, lineNumber)` for each logical line: continuations joined, comments and line ends removed.
-template <class Use>
-int forEachLine(std::string_view text, Use&& use) {
-    int line = 0;
-    std::string joined;
-    int joinedFrom = 0;
-    while (!text.empty()) {
-        const auto end = std::min(text.find('\n'), text.size());
-        std::string_view content = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        ++line;
-        if (content.ends_with('\r')) content.remove_suffix(1);
-        const bool continues = content.ends_with('\\');
-        if (continues) content.remove_suffix(1);
-        if (continues || !joined.empty()) {
-            if (joined.empty()) joinedFrom = line;
-            joined.append(content).push_back(' ');
-            if (continues && !text.empty()) continue;
-            use(std::string_view(joined), joinedFrom);
-            joined.clear();
-        } else {
-            use(content, line);
-        }
-    }
-    return line;
-}
-
-struct WarningList {
-    std::map<std::string, MeshWarning, std::less<>> kinds;
-
-    void add(std::string_view kind, int line, std::size_t count = 1) {
-        auto it = kinds.find(kind);
-        if (it == kinds.end()) it = kinds.emplace(kind, MeshWarning{std::string(kind), 0, line}).first;
-        it->second.count += count;
-        it->second.firstLine = std::min(it->second.firstLine, line);
-    }
-    std::vector<MeshWarning> list() const {
-        std::vector<MeshWarning> result;
-        for (const auto& [kind, warning] : kinds) result.push_back(warning);
-        std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.firstLine < b.firstLine; });
-        return result;
-    }
-};
 
 /// A change of material, part or smoothing, before face `face` of the chunk.
 struct StateChange {
@@ -460,34 +376,6 @@ private:
     std::vector<char> usable_;
 };
 
-Color readColor(Cursor& cursor) {
-    double rgb[3] = {0, 0, 0};
-    for (int i = 0; i < 3; ++i) {
-        if (i > 0 && cursor.atEnd()) { rgb[i] = rgb[0]; continue; }  // one number means grey
-        if (!cursor.number(rgb[i]) || !std::isfinite(rgb[i])) rgb[i] = 0;
-    }
-    const auto channel = [](double value) { return static_cast<float>(std::clamp(value, 0.0, 65504.0)); };
-    return {channel(rgb[0]), channel(rgb[1]), channel(rgb[2])};
-}
-
-/// The file name of a map statement, after its options: "-s 1 1 1 -bm 0.5 wood grain.png".
-std::string_view mapFile(Cursor cursor) {
-    while (!cursor.atEnd() && *cursor.at == '-') {
-        const Cursor before = cursor;
-        const auto option = cursor.word();
-        int arguments = option == "-o" || option == "-s" || option == "-t" ? 3 : option == "-mm" ? 2 : 1;
-        if (option.size() < 2 || !std::isalpha(static_cast<unsigned char>(option[1]))) { cursor = before; break; }
-        const bool numeric = arguments == 3;
-        while (arguments-- > 0) {
-            const Cursor argument = cursor;
-            double value;
-            if (numeric && !cursor.number(value)) { cursor = argument; break; }  // -s may have one to three numbers
-            if (!numeric) cursor.word();
-        }
-    }
-    return cursor.rest();
-}
-
 }  // namespace
 
 ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount) {
@@ -512,75 +400,5 @@ ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount)
 }
 
 ObjFile readObj(const std::filesystem::path& path) { return parseObj(MappedFile(path).text(), path.string()); }
-
-std::vector<Material> parseMtl(std::string_view text, const std::filesystem::path& folder, std::vector<MeshWarning>& warnings) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    std::vector<Material> materials;
-    WarningList found;
-    double exponent = 0;
-    Color specular;
-    const auto finish = [&] {
-        if (materials.empty()) return;
-        materials.back().specular = std::min(1.0f, std::max({specular.r, specular.g, specular.b}));
-        materials.back().shininess = materials.back().specular > 0 ? static_cast<float>(std::clamp(exponent, 0.0, 10000.0)) : 0.0f;
-    };
-    forEachLine(text, [&](std::string_view line, int number) {
-        Cursor cursor{line.data(), line.data() + line.size()};
-        const auto keyword = cursor.word();
-        if (keyword == "newmtl") {
-            finish();
-            materials.push_back({.name = std::string(cursor.rest())});
-            exponent = 0, specular = {};
-        } else if (materials.empty()) {
-            if (!keyword.empty() && keyword[0] != '#') found.add("material property before the first newmtl; skipped", number);
-        } else if (keyword == "Kd") {
-            materials.back().color = readColor(cursor);
-        } else if (keyword == "Ks") {
-            specular = readColor(cursor);
-        } else if (keyword == "Ns") {
-            if (!cursor.number(exponent) || !std::isfinite(exponent)) exponent = 0;
-        } else if (keyword == "map_Kd") {
-            std::string file(mapFile(cursor));
-            std::replace(file.begin(), file.end(), '\\', '/');
-            if (file.empty()) return;
-            const auto path = folder / file;
-            if (fileExists(path)) materials.back().texture = path.string();
-            else found.add(fmt::format("texture '{}' is missing; drawn without", path.string()), number);
-        }
-    });
-    finish();
-    for (auto& warning : found.list()) warnings.push_back(std::move(warning));
-    return materials;
-}
-
-std::vector<Material> readMaterials(const std::filesystem::path& objPath, const PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
-    std::vector<Material> materials;
-    const auto readLibrary = [&](const std::filesystem::path& path) {
-        try {
-            for (auto& material : parseMtl(readFile(path), path.parent_path(), warnings)) materials.push_back(std::move(material));
-        } catch (const Error& error) {
-            warnings.push_back({fmt::format("material library '{}' {}; drawn without", path.string(), error.problem), 1, 0});
-        }
-    };
-    for (const auto& line : mesh.materialLibraries) {
-        const auto whole = objPath.parent_path() / line;
-        if (fileExists(whole)) {  // the name itself may hold spaces
-            readLibrary(whole);
-            continue;
-        }
-        // Several names; a backslash keeps a space within one.
-        std::string name;
-        for (std::size_t i = 0; i <= line.size(); ++i) {
-            if (i < line.size() && !isBlank(line[i])) {
-                if (line[i] == '\\' && i + 1 < line.size() && isBlank(line[i + 1])) ++i;
-                name += line[i];
-            } else if (!name.empty()) {
-                readLibrary(objPath.parent_path() / name);
-                name.clear();
-            }
-        }
-    }
-    return materials;
-}
 
 }  // namespace limn
