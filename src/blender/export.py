@@ -391,11 +391,10 @@ class Exporter:
         return numbers
 
     def deforms(self, obj):
-        """Does the mesh change its shape over frames? Asked of what can change it, then of the vertices themselves."""
+        """May the mesh change its shape over frames? Whether it does is seen when every frame has been written."""
         original = obj.original
         data = original.data
-        driven = bool(original.modifiers) or getattr(data, "shape_keys", None) is not None or (getattr(data, "animation_data", None) is not None)
-        return driven
+        return bool(original.modifiers) or getattr(data, "shape_keys", None) is not None or getattr(data, "animation_data", None) is not None
 
     def mesh_of(self, obj, cages, frame, frames):
         """Writes the object's mesh unless that has been done; returns its name in the scene file, or None without faces."""

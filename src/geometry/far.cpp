@@ -17,11 +17,6 @@ namespace {
 using namespace OpenSubdiv;
 using far::Value;
 
-glm::dvec3 unitOrZero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
-}
-
 /// Normals of a level's corners: exact from the limit tangents where the surface is smooth at a vertex, else the mean of the faces on the
 /// corner's side of the sharp edges.
 class CornerNormals {

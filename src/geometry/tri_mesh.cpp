@@ -68,11 +68,6 @@ glm::dvec3 faceVector(const PolyMesh& mesh, std::size_t face) {
     return sum;
 }
 
-glm::dvec3 unitOrZero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
-}
-
 /// One normal per corner, made from the faces around its vertex.
 std::vector<glm::vec3> makeCornerNormals(const PolyMesh& mesh) {
     const std::size_t faces = mesh.faceCount(), corners = mesh.cornerPosition.size();

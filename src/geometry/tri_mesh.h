@@ -5,7 +5,9 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace limn {
@@ -21,6 +23,12 @@ struct Bounds {
     glm::dvec3 centre() const { return (lo + hi) * 0.5; }
     double diagonal() const { return empty() ? 0 : glm::length(hi - lo); }
 };
+
+/// A direction, or zero where there is none.
+inline glm::dvec3 unitOrZero(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
+}
 
 /// What the plan reads of a mesh.
 struct MeshNeeds {
