@@ -33,6 +33,7 @@ inline constexpr Aov shade{"shade", Format::rgba16f, {"R", "G", "B", "A"}, true,
 inline constexpr Aov albedo{"albedo", Format::rgba16f, {"R", "G", "B", "A"}, true, true, "The objects' own colours, textures included. Linear Rec.709, premultiplied alpha."};
 inline constexpr Aov ambientOcclusion{"ambient_occlusion", Format::r32f, {"Y"}, false, true, "Filtered ambient visibility: 1 open, 0 closed, background 1."};
 inline constexpr Aov ambientOcclusionRaw{"ambient_occlusion_raw", Format::r32f, {"Y"}, false, true, "Ambient visibility before its filter, noise and all."};
+inline constexpr Aov ambientOcclusionError{"ambient_occlusion_error", Format::r32f, {"Y"}, false, true, "Standard error of one sample's ambient_occlusion_raw, as the ray tracer estimates it."};
 inline constexpr Aov edges{"edges", Format::rgba16f, {"R", "G", "B", "A"}, true, true, "The lines alone. Linear Rec.709, premultiplied alpha."};
 inline constexpr Aov normal{"normal", Format::rg32f, {"X", "Y", "Z"}, false, false, "Shading normal in view space (x right, y up, z towards the viewer); zero on the background.", true};
 inline constexpr Aov normalGeometric{"normal_geometric", Format::rg32f, {"X", "Y", "Z"}, false, false, "Normal of the triangle in view space, towards the viewer; zero on the background.", true};
@@ -41,7 +42,7 @@ inline constexpr Aov position{"position", Format::rgba32f, {"X", "Y", "Z"}, fals
 inline constexpr Aov objectId{"object_id", Format::r32ui, {"id"}, false, false, "Number of the object (instances in scene order, their parts in file order), from 1; 0 on the background."};
 inline constexpr Aov materialId{"material_id", Format::r32ui, {"id"}, false, false, "Number of the material, from 1; 0 on the background."};
 
-inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
+inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &ambientOcclusionError, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
 
 }  // namespace aov
 

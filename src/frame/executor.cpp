@@ -86,7 +86,8 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
 
 void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
     const UniformBlock block = viewBlock(view);
-    for (const auto& planned : plan.passes) program(graph, planned, block);
+    for (const auto& planned : plan.passes)
+        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, block);
 }
 
 void Executor::allocate(const Plan& plan) {
@@ -115,7 +116,7 @@ static bool isDue(const Pass& pass, const View& view) {
     return true;
 }
 
-void Executor::run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, bool measure) {
+void Executor::run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, const RayScene* rays, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
     const gl::Buffer viewBuffer(block.bytes, "view");
@@ -138,6 +139,11 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
             continue;
         }
         const gl::DebugGroup group(pass.name);
+        if (pass.kind == Pass::Kind::host) {
+            runHost(graph, plan, planned, rays);
+            stamp();
+            continue;
+        }
         const gl::Program& linked = program(graph, planned, block);
         linked.use();
         viewBuffer.bindUniform(0);
@@ -169,6 +175,26 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
         size = glm::max(size, image.size());
     }
     gl::dispatch(size, kGroup);
+}
+
+void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const RayScene* rays) {
+    const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+    HostWork work{rays, {}, {}};
+    for (const auto& read : pass.reads) {
+        const auto& image = texture(plan, read.resource);
+        const int channels = info(image.format()).channels;
+        work.reads.push_back({image.size(), channels, image.read(channels)});
+    }
+    for (std::size_t w = 0; w < pass.writes.size(); ++w) {
+        HostImage& image = work.writes.emplace_back();
+        if (!planned.writes[w]) continue;
+        const auto& target = texture(plan, pass.writes[w].resource);
+        image = {target.size(), info(target.format()).channels, {}};
+        image.values.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y) * static_cast<std::size_t>(image.channels));
+    }
+    pass.work(work);
+    for (std::size_t w = 0; w < pass.writes.size(); ++w)
+        if (planned.writes[w]) texture(plan, pass.writes[w].resource).write(work.writes[w].values);
 }
 
 void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned) {

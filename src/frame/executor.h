@@ -26,7 +26,8 @@ public:
 
     /// Draws one sample of a frame; the first one of a frame or sub-frame also what its samples share. Samples must come in order. With
     /// `measure`, adds each pass's GPU time to milliseconds().
-    void run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, bool measure);
+    /// `rays` is there when the plan needs SceneData::rays.
+    void run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, const RayScene* rays, bool measure);
 
     /// A result of the last run that was asked for.
     const gl::Texture& texture(const Plan& plan, ResourceId resource) const;
@@ -40,6 +41,7 @@ private:
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned);
+    void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const RayScene* rays);
     bool drawsScreen(const Pass& pass) const;
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
 

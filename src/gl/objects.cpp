@@ -110,6 +110,12 @@ std::vector<float> Texture::read(int channels) const {
     return pixels;
 }
 
+void Texture::write(std::span<const float> values) const {
+    constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id(), 0, 0, 0, size_.x, size_.y, formats[info(format_).channels], GL_FLOAT, values.data());
+}
+
 std::vector<std::uint32_t> Texture::readIntegers(int channels) const {
     std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};

@@ -85,6 +85,9 @@ public:
     std::vector<float> read(int channels) const;
     std::vector<std::uint32_t> readIntegers(int channels) const;
 
+    /// The other way round, of the whole image.
+    void write(std::span<const float> values) const;
+
     Format format() const { return format_; }
     glm::ivec2 size() const { return size_; }
     Id id() const { return handle_.get(); }

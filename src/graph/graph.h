@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,7 +32,7 @@ struct Resource {
 };
 
 /// Data of the scene that shaders read.
-enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64 };
+enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64, rays = 128 };
 constexpr SceneData operator|(SceneData a, SceneData b) { return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
 constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
 
@@ -54,8 +55,24 @@ struct Drawing {
     int number = 0;             ///< what the shader's uniform `drawing` says
 };
 
+class RayScene;
+
+/// An image in memory, as host passes see it: rows from the lower left, channels side by side.
+struct HostImage {
+    glm::ivec2 size{0};
+    int channels = 1;
+    std::vector<float> values;
+};
+
+/// What a host pass works on. Images of `writes` that nobody reads are empty.
+struct HostWork {
+    const RayScene* rays = nullptr;     ///< where the pass needs SceneData::rays
+    std::vector<HostImage> reads, writes;
+};
+
 struct Pass {
-    enum class Kind { compute, raster };
+    /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending them on.
+    enum class Kind { compute, raster, host };
     /// How often it runs. What a pass makes that does not run for every sample is kept until it runs again.
     enum class Rate { sample, subFrame, frame };
 
@@ -69,6 +86,7 @@ struct Pass {
     std::vector<Write> writes;  ///< a D32F write of a raster pass is its depth buffer
     UniformBlock params;
     SceneData needs = SceneData::none;
+    std::function<void(HostWork&)> work; ///< host passes
     std::vector<Drawing> drawings;       ///< raster passes; empty: the scene once, as the picture's camera sees it
     std::string note;           ///< for people: "8 taps per pixel"
 };

@@ -137,7 +137,7 @@ private:
     }
 
     bool available(const Aov& aov) const {
-        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw) return config_.ao.has_value();
+        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw || &aov == &aov::ambientOcclusionError) return config_.ao.has_value();
         if (&aov == &aov::edges) return !config_.edges.empty();
         return true;
     }

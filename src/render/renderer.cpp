@@ -195,7 +195,10 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
     const bool changes = std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
     const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
     const std::string fittedTo = fitted ? fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y) : "";
-    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes) return *gpuScene_;
+    std::vector<glm::dmat4> places;
+    if (has(needs, SceneData::rays))
+        for (const auto& instance : scene.instances) places.push_back(instance.worldFromMesh);
+    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes && places == rayPlaces_) return *gpuScene_;
     Stopwatch watch(times);
     // Edges that are cut to look smooth to the camera need a mesh per instance; else instances share theirs.
     struct Build { std::size_t mesh; std::optional<std::size_t> instance; };
@@ -226,6 +229,12 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
     gpuScene_ = nullptr;   // gives the old one's memory back first
     gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits());
     watch.lap("of which upload");
+    rayScene_ = nullptr;
+    if (has(needs, SceneData::rays)) {
+        rayScene_ = std::make_unique<RayScene>(scene, meshes, meshOf);
+        watch.lap("of which ray tracing tree");
+    }
+    rayPlaces_ = std::move(places);
     gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs, gpuSceneFittedTo_ = fittedTo;
     return *gpuScene_;
 }
@@ -256,7 +265,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
         const View view = makeView(scene.camera, scene.info, request);
         gpu.setView(scene, view);
         const FramePlan one = planFrame(config, facts, view, plans.averaged.aovs, frame);
-        executor_.run(one.graph, one.plan, view, gpu, options.measure);
+        executor_.run(one.graph, one.plan, view, gpu, rayScene_.get(), options.measure);
     }
     gl::finish();
     watch.lap("draw");
@@ -274,7 +283,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     if (plans.centre) {
         executor_.resetMeasurements();
         gpu.setView(scene, plans.centreView);
-        executor_.run(plans.centre->graph, plans.centre->plan, plans.centreView, gpu, false);
+        executor_.run(plans.centre->graph, plans.centre->plan, plans.centreView, gpu, rayScene_.get(), false);
         collect(*plans.centre);
     }
     watch.lap("read back");

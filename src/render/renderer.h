@@ -3,6 +3,7 @@
 
 #include "frame/executor.h"
 #include "render/loader.h"
+#include "reference/ray_scene.h"
 #include "render/pipeline.h"
 
 #include <memory>
@@ -49,7 +50,8 @@ public:
     const gl::Device& device() const { return device_; }
 
 private:
-    /// The scene on the GPU: kept while frames differ only in what setView brings (cameras, transforms, lights).
+    /// The scene on the GPU: kept while frames differ only in what setView brings (cameras, transforms, lights). Where rays are traced, moved
+    /// instances need a new tree as well.
     GpuScene& sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
 
     gl::Device device_;
@@ -57,6 +59,8 @@ private:
     Executor executor_;
     std::vector<double> passMilliseconds_;
     std::unique_ptr<GpuScene> gpuScene_;
+    std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays
+    std::vector<glm::dmat4> rayPlaces_;      ///< where rayScene_'s instances stand
     std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
     SceneData gpuSceneData_ = SceneData::none;
     std::string gpuSceneFittedTo_;           ///< camera and picture that edges were cut for; empty when none were

@@ -1,4 +1,4 @@
-// Dependencies point one way: base → {image, config, scene, gl} → geometry → graph → frame → effects → render → cli.
+// Dependencies point one way: base → {image, config, scene, gl} → geometry → graph → frame → reference → effects → render → {study, cli}.
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,11 @@ TEST(Arrows, includesPointOneWay) {
         {"graph", {"base", "graph"}},
         {"gl", {"base", "graph", "gl"}},   // graph/format.h: the vocabulary of pixel formats
         {"frame", {"base", "image", "scene", "geometry", "gl", "graph", "frame"}},
-        {"effects", {"base", "config", "graph", "frame", "effects"}},
-        {"render", {"base", "image", "config", "scene", "geometry", "gl", "graph", "frame", "effects", "render"}},
-        {"cli", {"base", "image", "gl", "render", "cli"}},
+        {"reference", {"base", "geometry", "frame", "reference"}},
+        {"effects", {"base", "config", "graph", "frame", "reference", "effects"}},
+        {"render", {"base", "image", "config", "scene", "geometry", "gl", "graph", "frame", "reference", "effects", "render"}},
+        {"study", {"base", "image", "config", "frame", "reference", "effects", "render", "study"}},
+        {"cli", {"base", "image", "gl", "render", "study", "cli"}},
     };
     int checked = 0;
     const std::filesystem::path source = std::filesystem::path(LIMN_SOURCE_DIR) / "src";
