@@ -140,7 +140,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         }
         const gl::DebugGroup group(pass.name);
         if (pass.kind == Pass::Kind::host) {
-            runHost(graph, plan, planned, rays);
+            runHost(graph, plan, planned, view, rays);
             stamp();
             continue;
         }
@@ -153,7 +153,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         int unit = 0;
         for (const auto& read : pass.reads) texture(plan, read.resource).bindSampler(unit++);
         if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
-        else if (drawsScreen(pass)) runScreen(graph, plan, planned);
+        else if (drawsScreen(pass)) runScreen(graph, plan, planned, view);
         else runCompute(graph, plan, planned);
         stamp();
     }
@@ -162,6 +162,14 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         for (std::size_t i = 0; i < plan.passes.size(); ++i) milliseconds_[i] += stamps[i + 1].milliseconds() - stamps[i].milliseconds();
     }
     device_.check("drawing");
+}
+
+/// The part of an image that a pass must make: the picture and the pass's halo. Images may be coarser than the region drawn.
+static PixelRect neededPart(const PlannedPass& planned, const View& view, glm::ivec2 imageSize) {
+    const int coarse = std::max(1, (view.region.size.x + imageSize.x - 1) / imageSize.x);
+    const int skipped = std::max(0, view.guard - planned.halo);
+    const glm::ivec2 first(skipped / coarse), last = (view.region.size - skipped + coarse - 1) / coarse;
+    return {first, glm::min(last, imageSize) - first};
 }
 
 void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned) {
@@ -177,9 +185,9 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
     gl::dispatch(size, kGroup);
 }
 
-void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const RayScene* rays) {
+void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-    HostWork work{rays, {}, {}};
+    HostWork work{rays, {}, {}, neededPart(planned, view, view.region.size)};
     for (const auto& read : pass.reads) {
         const auto& image = texture(plan, read.resource);
         const int channels = info(image.format()).channels;
@@ -197,7 +205,7 @@ void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& 
         if (planned.writes[w]) texture(plan, pass.writes[w].resource).write(work.writes[w].values);
 }
 
-void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned) {
+void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::vector<const gl::Texture*> colours;
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
@@ -208,6 +216,8 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
     gl::setViewport({0, 0}, colours.front()->size());
     if (!noVertices_) noVertices_ = gl::VertexArray::empty();
     noVertices_.bind();
+    const PixelRect part = neededPart(planned, view, colours.front()->size());
+    const gl::Scissor scissor(part.origin, part.size);
     gl::drawScreen();
     gl::barrier();
 }
@@ -232,9 +242,8 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
-        // One virtual viewport for the whole picture, shifted by whole pixels: a part of a picture is that part of the whole.
         const int raster = pass.rate == Pass::Rate::sample ? 1 : view.split.raster;
-        gl::setViewport(-view.region.origin * raster, view.imageSize * raster);
+        gl::setViewport({0, 0}, view.region.size * raster);
         scene.draw();
     }
     for (const auto& drawing : pass.drawings) {

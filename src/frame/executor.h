@@ -40,8 +40,8 @@ private:
     const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
-    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned);
-    void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const RayScene* rays);
+    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view);
+    void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
     bool drawsScreen(const Pass& pass) const;
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
 

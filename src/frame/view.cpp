@@ -36,7 +36,7 @@ struct ViewConstants {
     glm::mat4 clipFromView, worldFromView;
     glm::dvec2 rayScaleExact, rayOffsetExact;
     glm::vec2 rayScale, rayOffset;
-    glm::ivec2 imageSize, origin, size;
+    glm::ivec2 canvasSize, origin, size;
     glm::ivec2 placeOnRaster;
     int raster, sample;
     unsigned seed;
@@ -45,14 +45,14 @@ struct ViewConstants {
 };
 
 constexpr Field kViewConstants[] = {
-    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of the whole picture; depth reversed, 0…1."}),
+    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of the picture and its guard band; depth reversed, 0…1."}),
     field<&ViewConstants::worldFromView>("worldFromView", {.doc = "Directions only need its upper 3×3."}),
     field<&ViewConstants::rayScaleExact>("rayScaleExact", {.doc = "rayScale in double precision."}),
     field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
     field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
     field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
-    field<&ViewConstants::imageSize>("imageSize", {.unit = "pixels", .doc = "Of the whole picture."}),
-    field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the whole picture."}),
+    field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels", .doc = "Of what clip space spans: the picture and its guard band."}),
+    field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the picture: negative where the guard band begins."}),
     field<&ViewConstants::size>("size", {.unit = "pixels", .doc = "Of the region drawn: the size of every screen texture."}),
     field<&ViewConstants::placeOnRaster>("placeOnRaster", {.unit = "fine pixels", .doc = "Which fine pixel of each pixel this sample looks at."}),
     field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per pixel, each way, of what is drawn once for several samples."}),
@@ -83,10 +83,10 @@ SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize) {
 }
 
 glm::dmat4 View::clipFromView() const {
-    const glm::dvec2 size(imageSize);
-    // ndc = 2·pixel/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the corner of the pixel: + 0.5 − 0.5.
+    const glm::dvec2 size(imageSize + 2 * guard);
+    // ndc = 2·(pixel + guard)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the pixel's corner: + 0.5 − 0.5.
     const glm::dvec2 scale = 2.0 / (rayScale * size);
-    const glm::dvec2 offset = -2.0 * rasterOffset / (rayScale * size) - 1.0;
+    const glm::dvec2 offset = 2.0 * (glm::dvec2(guard) - rasterOffset / rayScale) / size - 1.0;
     glm::dmat4 m(0);
     m[0][0] = scale.x;
     m[1][1] = scale.y;
@@ -106,6 +106,11 @@ glm::dmat4 View::clipFromView() const {
     return m;
 }
 
+int View::haloOf(double reach) const {
+    const double footprint = rayScale.x * (orthographic ? 1 : nearest);
+    return footprint > 0 && reach < footprint * widestGuard ? static_cast<int>(std::ceil(reach / footprint)) : widestGuard;
+}
+
 glm::dmat4 View::worldFromView() const {
     glm::dmat4 m(glm::transpose(viewFromRelative) / (unit * unit));
     m[3] = glm::dvec4(eye, 1);
@@ -115,7 +120,9 @@ glm::dmat4 View::worldFromView() const {
 View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request) {
     View view;
     view.imageSize = request.imageSize;
-    view.region = request.region.size.x > 0 ? request.region : PixelRect{{0, 0}, request.imageSize};
+    view.guard = request.guard;
+    view.widestGuard = request.widestGuard;
+    view.region = {glm::ivec2(-request.guard), request.imageSize + 2 * request.guard};
     view.split = request.split;
     view.sample = request.sample;
     view.seed = request.seed;
@@ -154,6 +161,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
     // Reversed float depth is as precise with a tiny near distance as with a large one.
     view.near = camera.near > 0 ? camera.near * view.unit : view.orthographic ? 0 : std::ldexp(1.0, -24);
+    view.nearest = depths.empty() ? 0 : std::max(depths.lo.z, view.near);
     view.clipFar = std::max(reach * 1.5 + 1, 2 * view.near);
     return view;
 }
@@ -202,7 +210,7 @@ UniformBlock viewBlock(const View& view) {
     c.rayOffsetExact = view.rayOffset;
     c.rayScale = view.rayScale;
     c.rayOffset = view.rayOffset;
-    c.imageSize = view.imageSize;
+    c.canvasSize = view.imageSize + 2 * view.guard;
     c.origin = view.region.origin;
     c.size = view.region.size;
     c.placeOnRaster = view.placeOnRaster();

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "geometry/tri_mesh.h"
+#include "graph/graph.h"
 #include "scene/scene.h"
 
 namespace limn {
@@ -36,14 +37,10 @@ struct SampleSplit {
 /// As fine a raster as divides n, fits the driver, and keeps its fine pixels below 2^24: triangles are then drawn least often.
 SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
 
-struct PixelRect {
-    glm::ivec2 origin{0};           ///< from the lower left
-    glm::ivec2 size{0};
-};
-
 struct View {
     glm::ivec2 imageSize{0};        ///< of the whole picture, in output pixels
-    PixelRect region;               ///< the part that is drawn, in output pixels
+    int guard = 0;                  ///< pixels drawn around the picture, so that effects that look around themselves are right at its border
+    PixelRect region;               ///< what is drawn: the picture and its guard band, in output pixels
     SampleSplit split;
     int sample = 0;                 ///< of split.samples()
     unsigned seed = 0;
@@ -63,22 +60,27 @@ struct View {
     double unit = 1;                ///< normalized units per scene unit
     double diagonal = 1;            ///< scene units
     double dpi = 96;
+    double nearest = 0;             ///< depth of the nearest corner of the scene's box, or 0 where the eye is inside; normalized units
+    int widestGuard = 0;            ///< pixels: how wide a guard band effects may ask for
 
     int subFrame() const { return sample / split.perSubFrame(); }
     /// Which fine pixel of each pixel the sample looks at.
     glm::ivec2 placeOnRaster() const { return {sample % split.perSubFrame() % split.raster, sample % split.perSubFrame() / split.raster}; }
-    /// Clip space from view space for the whole picture, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
+    /// Clip space from view space for the picture and its guard band, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
     glm::dmat4 worldFromView() const;
     /// A length of a parameter in normalized units.
     double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
     double pixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi); }
+    /// How far around a pixel an effect of this reach (normalized units) may look, in pixels: at the nearest surface there can be, but no
+    /// farther than the guard band may be wide.
+    int haloOf(double reach) const;
 };
 
 struct ViewRequest {
     glm::ivec2 imageSize{1280, 720};
-    PixelRect region;               ///< empty: everything
+    int guard = 0, widestGuard = 0; ///< see View
     SampleSplit split;
     int sample = 0;
     unsigned seed = 0;

@@ -237,6 +237,13 @@ void drawElements(const Buffer& commands, int count) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));
 }
+Scissor::Scissor(glm::ivec2 origin, glm::ivec2 size) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(origin.x, origin.y, size.x, size.y);
+}
+
+Scissor::~Scissor() { glDisable(GL_SCISSOR_TEST); }
+
 void setViewport(glm::ivec2 origin, glm::ivec2 size) { glViewport(origin.x, origin.y, size.x, size.y); }
 void setDepthTest(DepthTest test) {
     if (test == DepthTest::none) return glDisable(GL_DEPTH_TEST);

@@ -178,6 +178,15 @@ struct DrawCommand {
 
 enum class DepthTest { none, greater };
 
+/// Drawing touches nothing outside a rectangle while this lives.
+class Scissor {
+public:
+    Scissor(glm::ivec2 origin, glm::ivec2 size);
+    ~Scissor();
+    Scissor(const Scissor&) = delete;
+    Scissor& operator=(const Scissor&) = delete;
+};
+
 void dispatch(glm::ivec2 size, glm::ivec2 group);      ///< enough groups to cover the size, then a barrier
 void drawScreen();                                     ///< the three vertices of shaders/frame/screen.vert
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices

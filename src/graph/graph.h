@@ -39,6 +39,7 @@ constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>
 struct Read {
     std::string name;           ///< of the sampler in the shader
     ResourceId resource;
+    int halo = 0;               ///< how many pixels around its own the pass reads
 };
 
 struct Write {
@@ -64,10 +65,16 @@ struct HostImage {
     std::vector<float> values;
 };
 
+struct PixelRect {
+    glm::ivec2 origin{0};           ///< from the lower left
+    glm::ivec2 size{0};
+};
+
 /// What a host pass works on. Images of `writes` that nobody reads are empty.
 struct HostWork {
     const RayScene* rays = nullptr;     ///< where the pass needs SceneData::rays
     std::vector<HostImage> reads, writes;
+    PixelRect part;                     ///< of the images: only this is asked for
 };
 
 struct Pass {
@@ -112,6 +119,7 @@ struct PlannedPass {
     int pass = 0;                 ///< index into Graph::passes
     std::vector<bool> writes;     ///< of each Pass::writes: is it made?
     std::string reason;           ///< who asked for it
+    int halo = 0;                 ///< pixels around the picture that it must make for later passes to be right up to the border
 };
 
 struct CulledPass {
@@ -135,6 +143,8 @@ struct Plan {
     std::vector<int> textureOf;           ///< resource index → index into textures, or −1 when it is not made
     SceneData sceneData = SceneData::none;
 
+    /// The widest halo of all passes: how much wider than the picture the scene must be drawn.
+    int halo() const;
     std::uint64_t textureBytes() const;
     bool makes(ResourceId resource) const { return resource.index >= 0 && textureOf[static_cast<std::size_t>(resource.index)] >= 0; }
 };

@@ -19,6 +19,7 @@ public:
         for (const auto& want : wanted_) need(want.resource, fmt::format("asked for: {}", want.name));
         errors_.throwIfAny();
         collectPasses();
+        spreadHalos();
         layOutTextures();
         return std::move(plan_);
     }
@@ -77,6 +78,18 @@ private:
         }
     }
 
+    /// A pass must make as much around the picture as its readers make, and what they read around that.
+    void spreadHalos() {
+        std::vector<int> halo(graph_.resources.size(), 0);
+        for (auto planned = plan_.passes.rbegin(); planned != plan_.passes.rend(); ++planned) {
+            const Pass& pass = graph_.passes[static_cast<std::size_t>(planned->pass)];
+            for (const auto& write : pass.writes) planned->halo = std::max(planned->halo, halo[index(write.resource)]);
+            // Even, so that images of half the size have the picture's pixels in the same places.
+            planned->halo = (planned->halo + 1) / 2 * 2;
+            for (const auto& read : pass.reads) halo[index(read.resource)] = std::max(halo[index(read.resource)], planned->halo + read.halo);
+        }
+    }
+
     void layOutTextures() {
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
@@ -123,6 +136,12 @@ private:
 };
 
 }  // namespace
+
+int Plan::halo() const {
+    int widest = 0;
+    for (const auto& planned : passes) widest = std::max(widest, planned.halo);
+    return widest;
+}
 
 std::uint64_t Plan::textureBytes() const {
     std::uint64_t bytes = 0;

@@ -22,6 +22,7 @@ struct ImageSettings {
     Color background{1, 1, 1};
     bool transparent = false;
     double dpi = 96;
+    double guard = 0.05;
 };
 
 struct OutputSettings {

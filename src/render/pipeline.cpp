@@ -8,11 +8,13 @@ namespace {
 struct AccumulateConstants {
     bool first = false, last = false;
     float scale = 1;
+    glm::ivec2 offset{0};
 };
 constexpr Field kAccumulate[] = {
     field<&AccumulateConstants::first>("first", {.doc = "Forget what was summed before."}),
     field<&AccumulateConstants::last>("last", {.doc = "Turn the sum into the mean."}),
     field<&AccumulateConstants::scale>("scale", {.doc = "One over the number of samples."}),
+    field<&AccumulateConstants::offset>("offset", {.unit = "pixels", .doc = "Where the picture begins in what was drawn."}),
 };
 
 void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) {
@@ -20,17 +22,17 @@ void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) 
     choice.technique->build(builder, choice.at(frame).get(), *choice.technique);
 }
 
-/// The mean of an AOV over the samples of each pixel, as an image of output pixels.
+/// The mean of an AOV over the samples of each pixel, as an image of the picture without its guard band.
 ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
-    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size, true});
+    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.imageSize, true});
     const int samples = view.split.samples();
     Pass pass;
     pass.name = fmt::format("accumulate_{}", aov.name);
     pass.shader = "frame/accumulate";
     pass.reads = {{"source", builder.read(aov)}};
     pass.writes = {{"sum", sum, SceneData::none, glm::vec4(0), true}};
-    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.sample == 0, view.sample + 1 == samples, 1.0f / static_cast<float>(samples)});
+    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.sample == 0, view.sample + 1 == samples, 1.0f / static_cast<float>(samples), glm::ivec2(view.guard)});
     pass.note = fmt::format("{} samples", samples);
     builder.beginTechnique("samples", "accumulate");
     builder.add(std::move(pass));

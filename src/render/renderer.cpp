@@ -29,12 +29,14 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame) {
+ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard) {
     ViewRequest request;
     request.imageSize = config.image.size;
     request.split = split;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.dpi = config.image.dpi;
+    request.guard = guard;
+    request.widestGuard = static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y)));
     return request;
 }
 
@@ -122,6 +124,7 @@ SceneData neededData(const Plan& a, const std::optional<FramePlan>& b) { return 
 /// Both plans of a frame: the averaged AOVs over all samples, and the others at the pixel's centre.
 struct FramePlans {
     SampleSplit split;
+    int guard = 0;
     FramePlan averaged;
     std::optional<FramePlan> centre;
     View averagedView, centreView;
@@ -132,19 +135,20 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
     auto averaged = chooseAovs(config.output.aovs, true);
     const auto centre = chooseAovs(config.output.aovs, false);
     // Without anything to average one look at the pixel's centre is all there is to do.
-    plans.split = averaged.empty() ? SampleSplit{} : splitSamples(config.image.samples, config.image.size, maxTextureSize);
-    const bool together = plans.split.samples() == 1;
+    const bool together = averaged.empty() || config.image.samples == 1;
     const auto plan = [&] {
-        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame));
+        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard));
         plans.averaged = planFrame(config, facts, plans.averagedView, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
     };
+    if (averaged.empty()) plans.split = {};
+    else plans.split = {1, config.image.samples};
+    // The first plan tells how wide a guard band is needed, and whether a finer raster is of use.
     plan();
-    if (plans.split.raster > 1 && !plans.averaged.usesFineRaster) {
-        plans.split = {1, plans.split.samples()};
-        plan();
-    }
+    plans.guard = plans.averaged.plan.halo();
+    if (plans.averaged.usesFineRaster) plans.split = splitSamples(plans.split.samples(), config.image.size + 2 * plans.guard, maxTextureSize);
+    if (plans.guard > 0 || plans.split.raster > 1) plan();
     if (!together && !centre.empty()) {
-        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame));
+        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard));
         plans.centre = planFrame(config, facts, plans.centreView, centre, frame);
     }
     return plans;
@@ -166,6 +170,7 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
     fact("scene", loaded.scene.file);
     fact("picture", fmt::format("{}×{} pixels, camera '{}'", config.image.size.x, config.image.size.y, scene.camera.name));
     fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.samples(), split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
+    if (plans.guard > 0) fact("guard band", fmt::format("{} pixels drawn around the picture", plans.guard));
     fact("accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)]));
     fact("objects", fmt::format("{} instances, {} faces, {} lights", scene.instances.size(), faces, scene.lights.size()));
     fact("diagonal", fmt::format("{} scene units at frame {}", numberText(static_cast<float>(scene.info.diagonal())), loaded.scene.firstFrame()));
@@ -245,9 +250,9 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
     const SceneFacts facts = sceneFacts(scene);
     const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
-    if (std::max(config.image.size.x, config.image.size.y) > largest)
-        throw Error(ExitCode::usage, {config.file.string()}, fmt::format("{}×{} pixels are more than this GL device draws at once ({})", config.image.size.x, config.image.size.y, largest), "make image.size smaller");
     const FramePlans plans = planBoth(config, scene, facts, frame, largest);
+    if (std::max(config.image.size.x, config.image.size.y) + 2 * plans.guard > largest)
+        throw Error(ExitCode::usage, {config.file.string()}, fmt::format("{}×{} pixels are more than this GL device draws at once ({})", config.image.size.x, config.image.size.y, largest), "make image.size smaller");
     if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
         throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x, layout.size.y, largest), "lower shadow.resolution");
     watch.lap("plan");
@@ -260,7 +265,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
 
     executor_.resetMeasurements();
     for (int sample = 0; sample < plans.split.samples(); ++sample) {
-        ViewRequest request = viewRequest(config, plans.split, frame);
+        ViewRequest request = viewRequest(config, plans.split, frame, plans.guard);
         request.sample = sample;
         const View view = makeView(scene.camera, scene.info, request);
         gpu.setView(scene, view);
@@ -275,6 +280,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     const auto collect = [&](const FramePlan& plan) {
         for (std::size_t i = 0; i < plan.aovs.size(); ++i) {
             Image image = readBack(executor_.texture(plan.plan, plan.wanted[i].resource), *plan.aovs[i]);
+            if (image.width != config.image.size.x) image = crop(image, {glm::ivec2(plans.guard), config.image.size});
             result.nonFinite += finish(image, *plan.aovs[i], plans.averagedView.unit);
             images[plan.aovs[i]] = options.crop.size.x > 0 ? crop(image, options.crop) : std::move(image);
         }

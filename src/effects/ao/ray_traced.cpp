@@ -33,7 +33,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.needs = SceneData::rays;
     const OcclusionQuery query{graph.view().normalized(params.radius), params.falloff, params.rays};
     pass.work = [query, view = graph.view()](HostWork& work) {
-        traceAmbientOcclusion(*work.rays, view, {work.reads[0].values, work.reads[1].values}, query, {{0, 0}, view.region.size}, work.writes[0].values, work.writes[1].values);
+        traceAmbientOcclusion(*work.rays, view, {work.reads[0].values, work.reads[1].values}, query, work.part, work.writes[0].values, work.writes[1].values);
     };
     pass.note = std::to_string(params.rays) + (params.rays == 1 ? " ray per pixel" : " rays per pixel");
     graph.add(std::move(pass));

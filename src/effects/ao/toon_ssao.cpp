@@ -90,7 +90,9 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = graph.image(aov::ambientOcclusionRaw);
     Pass pass;
     pass.name = "toon_ssao";
-    pass.reads = {{"depth", graph.read(aov::depth)}};
+    // The paper clamps taps to the picture's border.
+    const int halo = params.radiusIn == RadiusIn::image ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
+    pass.reads = {{"depth", graph.read(aov::depth), halo}};
     if (params.kernel == ToonKernel::hemisphere) pass.reads.push_back({"normal", graph.read(aov::normalGeometric)});
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));

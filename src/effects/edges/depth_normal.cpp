@@ -67,9 +67,9 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r8);
     Pass pass;
     pass.name = "depth_normal" + graph.layerSuffix();
-    pass.reads = {{"depth", graph.read(aov::depth)}, {"normal", graph.read(aov::normal)}};
+    pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normal", graph.read(aov::normal), 1}};
     if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
-    else pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
+    else pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric), 1});
     pass.writes = {{"result", sides}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     pass.note = "2 neighbours per pixel";

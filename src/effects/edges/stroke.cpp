@@ -31,7 +31,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     Pass rows;
     rows.name = "stroke_rows" + graph.layerSuffix();
     rows.shader = "frame/stroke_rows";
-    rows.reads = {{"sides", sides}};
+    rows.reads = {{"sides", sides, constants.window}};
     const ResourceId perRow = graph.image("stroke_rows" + graph.layerSuffix(), Format::rg32f);
     rows.writes = {{"result", perRow}};
     rows.params = paramsBlock(edges_stroke::kConstants, constants);
@@ -41,7 +41,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     Pass draw;
     draw.name = "stroke" + graph.layerSuffix();
     draw.shader = "frame/stroke";
-    draw.reads = {{"rows", perRow}};
+    draw.reads = {{"rows", perRow, constants.window}};
     draw.note = note;
     if (const auto below = graph.find(aov::edges)) {
         draw.reads.push_back({"layersBelow", *below});

@@ -21,7 +21,7 @@ void build(EffectBuilder& graph, const Params& params) {
         const ResourceId result = last ? graph.image(aov::ambientOcclusion) : graph.image("ambient_occlusion_blur", Format::r32f);
         Pass pass;
         pass.name = "gaussian_" + std::to_string(i + 1);
-        pass.reads = {{"source", graph.read(aov::ambientOcclusion)}};
+        pass.reads = {{"source", graph.read(aov::ambientOcclusion), 1}};
         pass.writes = {{"result", result}};
         pass.note = "9 taps per pixel";
         graph.add(std::move(pass));

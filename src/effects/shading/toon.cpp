@@ -124,7 +124,7 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass bands;
     bands.name = "toon_bands";
     bands.shader = "effects/shading/toon_bands";
-    bands.reads = {{"light", light}, {"albedo", graph.read(aov::albedo)}};
+    bands.reads = {{"light", light, params.edgeSoftness > 0 ? 1 : 0}, {"albedo", graph.read(aov::albedo)}};
     if (params.space == ToonSpace::display) bands.defines.emplace_back("DISPLAY_ENCODED", "");
     if (colored) bands.defines.emplace_back("COLORED_LIGHT", "");
     bands.writes = {{"result", result}};
