@@ -1,6 +1,6 @@
 // Randomness as a pure function of (global pixel, sample, seed): the same for every tile, thread and driver.
 //
-// Integer arithmetic only, so that every implementation agrees to the bit.
+// Include after lib/space.glsl. Integer arithmetic only, so that every implementation agrees to the bit.
 
 // A 32-bit mix in which every input bit flips every output bit about half the time.
 uint mixBits(uint x) {
@@ -13,7 +13,7 @@ uint mixBits(uint x) {
 float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 
 // Pixel of the whole picture (xy) and number of the sample within it (z).
-ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin, view.sampleNumber); }
+ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin / COARSENESS, view.sampleNumber); }
 
 // Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel: additive recurrences with the
 // generalized golden ratios of two and three dimensions (multiples of 2^32), shifted by the seed.

@@ -1,16 +1,20 @@
 // Pixels, rays and view space (right-handed, camera at the origin, looking down -z, normalized units).
 //
-// A `pixel` is a texel of the screen textures: a pixel of the region being drawn, counted from its lower left.
+// A `pixel` is a texel of the screen textures: a pixel of the region being drawn, counted from its lower left. In passes at half resolution
+// (COARSENESS 2) it stands for every second pixel each way, and sits where that pixel sits, not between four of them.
+#ifndef COARSENESS
+#define COARSENESS 1
+#endif
 
 // What `depth` holds where nothing was hit.
 const float BACKGROUND_DEPTH = 3.402823466e38;
 
 bool isBackground(float depth) { return depth == BACKGROUND_DEPTH; }
 
-bool insideRegion(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, view.size)); }
+bool insideRegion(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel * COARSENESS, view.size)); }
 
 // View-space xy at unit depth of a pixel's centre; for an orthographic camera its xy.
-vec2 rayOf(ivec2 pixel) { return (vec2(pixel + view.origin) + 0.5) * view.rayScale + view.rayOffset; }
+vec2 rayOf(ivec2 pixel) { return (vec2(pixel * COARSENESS + view.origin) + 0.5) * view.rayScale + view.rayOffset; }
 
 vec3 viewPosition(ivec2 pixel, float depth) {
     vec2 ray = rayOf(pixel);
@@ -23,8 +27,9 @@ vec3 towardsEye(vec3 position) { return view.orthographic ? vec3(0, 0, 1) : norm
 // The pixel that a view-space position falls on, with fraction: centres lie at +0.5. Needs position.z < 0 unless orthographic.
 vec2 pixelOf(vec3 position) {
     vec2 ray = view.orthographic ? position.xy : position.xy / -position.z;
-    return (ray - view.rayOffset) / view.rayScale - vec2(view.origin);
+    vec2 at = (ray - view.rayOffset) / view.rayScale - vec2(view.origin);
+    return COARSENESS == 1 ? at : (at - 0.5) / float(COARSENESS) + 0.5;
 }
 
 // Width of a pixel at a depth, in normalized units.
-float pixelFootprint(float depth) { return view.rayScale.x * (view.orthographic ? 1.0 : depth); }
+float pixelFootprint(float depth) { return float(COARSENESS) * view.rayScale.x * (view.orthographic ? 1.0 : depth); }

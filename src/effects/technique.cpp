@@ -56,7 +56,7 @@ std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
     return it->second;
 }
 
-ResourceId EffectBuilder::image(std::string name, Format format) { return graph_.add({std::move(name), format, view_.region.size, false}); }
+ResourceId EffectBuilder::image(std::string name, Format format, int coarseness) { return graph_.add({std::move(name), format, (view_.region.size + coarseness - 1) / coarseness, false}); }
 
 ResourceId EffectBuilder::fineImage(std::string name, Format format) {
     usesFineRaster_ = true;

@@ -43,8 +43,8 @@ public:
     /// From now on this image is the AOV.
     void publish(const Aov& aov, ResourceId image) { published_[aov.name] = image; }
 
-    /// An image as large as the region drawn.
-    ResourceId image(std::string name, Format format);
+    /// An image as large as the region drawn, or of every second pixel of it each way (coarseness 2).
+    ResourceId image(std::string name, Format format, int coarseness = 1);
     /// An image on the fine raster, for passes that run once per sub-frame.
     ResourceId fineImage(std::string name, Format format);
     bool usesFineRaster() const { return usesFineRaster_; }

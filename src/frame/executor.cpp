@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
 
 namespace limn {
@@ -188,6 +189,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
 void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     HostWork work{rays, {}, {}, neededPart(planned, view, view.region.size)};
+    const auto begin = std::chrono::steady_clock::now();
     for (const auto& read : pass.reads) {
         const auto& image = texture(plan, read.resource);
         const int channels = info(image.format()).channels;
@@ -200,9 +202,13 @@ void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& 
         image = {target.size(), info(target.format()).channels, {}};
         image.values.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y) * static_cast<std::size_t>(image.channels));
     }
+    const auto worked = std::chrono::steady_clock::now();
     pass.work(work);
+    const auto done = std::chrono::steady_clock::now();
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
         if (planned.writes[w]) texture(plan, pass.writes[w].resource).write(work.writes[w].values);
+    gl::finish();
+    transferMilliseconds_ += std::chrono::duration<double, std::milli>((worked - begin) + (std::chrono::steady_clock::now() - done)).count();
 }
 
 void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view) {

@@ -34,7 +34,9 @@ public:
 
     /// GPU milliseconds per planned pass, summed over the runs that measured.
     const std::vector<double>& milliseconds() const { return milliseconds_; }
-    void resetMeasurements() { milliseconds_.clear(); }
+    /// How much of that was moving images between GPU and host passes.
+    double transferMilliseconds() const { return transferMilliseconds_; }
+    void resetMeasurements() { milliseconds_.clear(), transferMilliseconds_ = 0; }
 
 private:
     const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
@@ -50,6 +52,7 @@ private:
     std::unordered_map<std::string, gl::Program> programs_;   ///< by their whole source
     std::map<std::size_t, gl::Texture> textures_;             ///< by index into Plan::textures
     std::vector<double> milliseconds_;
+    double transferMilliseconds_ = 0;
     gl::VertexArray noVertices_;
     bool timerIsWarm_ = false;
 };

@@ -121,6 +121,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     View view;
     view.imageSize = request.imageSize;
     view.guard = request.guard;
+    view.keptGuard = request.keptGuard;
     view.widestGuard = request.widestGuard;
     view.region = {glm::ivec2(-request.guard), request.imageSize + 2 * request.guard};
     view.split = request.split;

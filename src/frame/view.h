@@ -61,6 +61,7 @@ struct View {
     double diagonal = 1;            ///< scene units
     double dpi = 96;
     double nearest = 0;             ///< depth of the nearest corner of the scene's box, or 0 where the eye is inside; normalized units
+    int keptGuard = 0;              ///< pixels of the guard band that are wanted with the picture
     int widestGuard = 0;            ///< pixels: how wide a guard band effects may ask for
 
     int subFrame() const { return sample / split.perSubFrame(); }
@@ -80,7 +81,7 @@ struct View {
 
 struct ViewRequest {
     glm::ivec2 imageSize{1280, 720};
-    int guard = 0, widestGuard = 0; ///< see View
+    int guard = 0, keptGuard = 0, widestGuard = 0;   ///< see View
     SampleSplit split;
     int sample = 0;
     unsigned seed = 0;

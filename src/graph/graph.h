@@ -113,6 +113,7 @@ struct Graph {
 struct Wanted {
     std::string name;
     ResourceId resource;
+    int halo = 0;                 ///< pixels around the picture that are wanted too
 };
 
 struct PlannedPass {

@@ -81,6 +81,7 @@ private:
     /// A pass must make as much around the picture as its readers make, and what they read around that.
     void spreadHalos() {
         std::vector<int> halo(graph_.resources.size(), 0);
+        for (const auto& want : wanted_) halo[index(want.resource)] = std::max(halo[index(want.resource)], want.halo);
         for (auto planned = plan_.passes.rbegin(); planned != plan_.passes.rend(); ++planned) {
             const Pass& pass = graph_.passes[static_cast<std::size_t>(planned->pass)];
             for (const auto& write : pass.writes) planned->halo = std::max(planned->halo, halo[index(write.resource)]);

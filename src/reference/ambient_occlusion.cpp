@@ -1,6 +1,7 @@
 #include "reference/ambient_occlusion.h"
 
 #include "frame/aov.h"
+#include "frame/directions.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
@@ -32,14 +33,6 @@ Point direction(glm::ivec2 pixel, int ray, int rays, int sample, std::uint32_t s
     const std::uint32_t place = kOrder[pixel.y & 3][pixel.x & 3];
     const std::uint32_t index = (static_cast<std::uint32_t>(sample) * 16 + place) * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(ray);
     return {index * 3242174889u + mixBits(seed * 2 + 1), index * 2447445414u + mixBits(seed * 2 + 2)};
-}
-
-glm::vec3 decodeNormal(float x, float y) {
-    glm::vec3 n(x, y, 1 - std::abs(x) - std::abs(y));
-    const float fold = std::max(-n.z, 0.0f);
-    n.x -= n.x >= 0 ? fold : -fold;
-    n.y -= n.y >= 0 ? fold : -fold;
-    return glm::normalize(n);
 }
 
 /// Two vectors that complete a unit normal to a basis (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
@@ -126,7 +119,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
                 const double z = static_cast<double>(depth);
                 const glm::dvec3 position(raysFromView * glm::dvec4(view.orthographic ? ray : ray * z, -z, 1));
                 Origin origin;
-                origin.normal = glm::vec3(glm::normalize(rotation * glm::dvec3(decodeNormal(surfaces.normalGeometric[2 * at], surfaces.normalGeometric[2 * at + 1]))));
+                origin.normal = glm::vec3(glm::normalize(rotation * glm::dvec3(decodeDirection({surfaces.normalGeometric[2 * at], surfaces.normalGeometric[2 * at + 1]}))));
                 complete(origin.normal, origin.tangent, origin.bitangent);
                 // Coordinates are rounded by 2^-24 of their size, the depth they came from by as much of itself, and the tree's own vertices once
                 // more: four times their sum.

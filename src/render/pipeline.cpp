@@ -70,7 +70,7 @@ FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const V
         if (!builder.find(*aov))
             throw Error(ExitCode::usage, {config.file.string()}, fmt::format("the AOV '{}' is asked for, but at frame {} nothing makes it", aov->name, frame), aov == &aov::ambientOcclusionError ? "only ao = \"ray_traced\" knows its error" : "raise the opacity of a line layer, or leave the AOV out");
         const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view) : builder.read(*aov);
-        result.wanted.push_back({std::string(aov->name), image});
+        result.wanted.push_back({std::string(aov->name), image, view.keptGuard});
         result.aovs.push_back(aov);
     }
     result.usesFineRaster = builder.usesFineRaster();

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/install.h"
 #include "base/text.h"
+#include "frame/directions.h"
 #include "render/edge_rates.h"
 
 #include <fmt/format.h>
@@ -29,28 +30,22 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard) {
+ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard, int keptGuard) {
     ViewRequest request;
     request.imageSize = config.image.size;
     request.split = split;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.dpi = config.image.dpi;
     request.guard = guard;
+    request.keptGuard = keptGuard;
     request.widestGuard = static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y)));
     return request;
 }
 
-/// The inverse of encodeNormal in shaders/lib/normals.glsl; NO_NORMAL becomes zero.
 std::vector<float> decodeDirections(const std::vector<float>& encoded) {
     std::vector<float> decoded(encoded.size() / 2 * 3);
     tbb::parallel_for(std::size_t{0}, encoded.size() / 2, [&](std::size_t i) {
-        const float x = encoded[2 * i], y = encoded[2 * i + 1];
-        if (x > 1) return;
-        glm::vec3 n(x, y, 1 - std::abs(x) - std::abs(y));
-        const float fold = std::max(-n.z, 0.0f);
-        n.x -= n.x >= 0 ? fold : -fold;
-        n.y -= n.y >= 0 ? fold : -fold;
-        n = glm::normalize(n);
+        const glm::vec3 n = decodeDirection({encoded[2 * i], encoded[2 * i + 1]});
         for (int k = 0; k < 3; ++k) decoded[3 * i + static_cast<std::size_t>(k)] = n[k];
     });
     return decoded;
@@ -130,14 +125,14 @@ struct FramePlans {
     View averagedView, centreView;
 };
 
-FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const SceneFacts& facts, int frame, int maxTextureSize) {
+FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const SceneFacts& facts, int frame, int maxTextureSize, int keptGuard) {
     FramePlans plans;
     auto averaged = chooseAovs(config.output.aovs, true);
     const auto centre = chooseAovs(config.output.aovs, false);
     // Without anything to average one look at the pixel's centre is all there is to do.
     const bool together = averaged.empty() || config.image.samples == 1;
     const auto plan = [&] {
-        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard));
+        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard, keptGuard));
         plans.averaged = planFrame(config, facts, plans.averagedView, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
     };
     if (averaged.empty()) plans.split = {};
@@ -148,7 +143,7 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
     if (plans.averaged.usesFineRaster) plans.split = splitSamples(plans.split.samples(), config.image.size + 2 * plans.guard, maxTextureSize);
     if (plans.guard > 0 || plans.split.raster > 1) plan();
     if (!together && !centre.empty()) {
-        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard));
+        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard, keptGuard));
         plans.centre = planFrame(config, facts, plans.centreView, centre, frame);
     }
     return plans;
@@ -159,7 +154,7 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
 ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {
     const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
     const SceneFacts facts = sceneFacts(scene);
-    FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize);
+    FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0);
     ExplainedPlan result{std::move(plans.averaged), std::move(plans.centre), {}};
 
     const auto& split = plans.split;
@@ -250,7 +245,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
     const SceneFacts facts = sceneFacts(scene);
     const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
-    const FramePlans plans = planBoth(config, scene, facts, frame, largest);
+    const FramePlans plans = planBoth(config, scene, facts, frame, largest, options.guard);
     if (std::max(config.image.size.x, config.image.size.y) + 2 * plans.guard > largest)
         throw Error(ExitCode::usage, {config.file.string()}, fmt::format("{}×{} pixels are more than this GL device draws at once ({})", config.image.size.x, config.image.size.y, largest), "make image.size smaller");
     if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
@@ -265,7 +260,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
 
     executor_.resetMeasurements();
     for (int sample = 0; sample < plans.split.samples(); ++sample) {
-        ViewRequest request = viewRequest(config, plans.split, frame, plans.guard);
+        ViewRequest request = viewRequest(config, plans.split, frame, plans.guard, options.guard);
         request.sample = sample;
         const View view = makeView(scene.camera, scene.info, request);
         gpu.setView(scene, view);
@@ -275,12 +270,18 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     gl::finish();
     watch.lap("draw");
     passMilliseconds_ = executor_.milliseconds();
+    passTimes_.clear();
+    for (std::size_t i = 0; i < passMilliseconds_.size(); ++i) {
+        const Pass& pass = plans.averaged.graph.passes[static_cast<std::size_t>(plans.averaged.plan.passes[i].pass)];
+        passTimes_.push_back({pass.name, pass.slot, passMilliseconds_[i]});
+    }
+    result.view = plans.averagedView;
 
     std::map<const Aov*, Image> images;
     const auto collect = [&](const FramePlan& plan) {
         for (std::size_t i = 0; i < plan.aovs.size(); ++i) {
             Image image = readBack(executor_.texture(plan.plan, plan.wanted[i].resource), *plan.aovs[i]);
-            if (image.width != config.image.size.x) image = crop(image, {glm::ivec2(plans.guard), config.image.size});
+            if (image.width != config.image.size.x && options.guard == 0) image = crop(image, {glm::ivec2(plans.guard), config.image.size});
             result.nonFinite += finish(image, *plan.aovs[i], plans.averagedView.unit);
             images[plan.aovs[i]] = options.crop.size.x > 0 ? crop(image, options.crop) : std::move(image);
         }

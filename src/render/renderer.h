@@ -13,6 +13,7 @@ namespace limn {
 struct RenderOptions {
     PixelRect crop;                 ///< output pixels from the *upper* left; empty: everything
     bool measure = false;
+    int guard = 0;                  ///< draw at least so many pixels around the picture, and keep them in the images; even
 };
 
 /// Milliseconds of the parts of a frame, as seen from outside.
@@ -26,6 +27,13 @@ struct RenderedFrame {
     Metadata metadata;
     std::vector<PartTime> times;
     std::uint64_t nonFinite = 0;            ///< values that are NaN or infinite, but for depth's background
+    View view;                              ///< of the first sample
+};
+
+/// GPU milliseconds of a pass, over all samples of a frame.
+struct PassTime {
+    std::string name, slot;
+    double milliseconds;
 };
 
 /// A plan and the pictures it would make: what `limn plan` shows.
@@ -47,6 +55,10 @@ public:
 
     /// With RenderOptions::measure: GPU milliseconds of each pass of the last frame's averaged plan.
     const std::vector<double>& passMilliseconds() const { return passMilliseconds_; }
+    /// The same with names.
+    const std::vector<PassTime>& passTimes() const { return passTimes_; }
+    /// How much of that was reading images back for passes on the CPU, and sending their results on.
+    double transferMilliseconds() const { return executor_.transferMilliseconds(); }
     const gl::Device& device() const { return device_; }
 
 private:
@@ -58,6 +70,7 @@ private:
     ShaderLibrary shaders_;
     Executor executor_;
     std::vector<double> passMilliseconds_;
+    std::vector<PassTime> passTimes_;
     std::unique_ptr<GpuScene> gpuScene_;
     std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays
     std::vector<glm::dmat4> rayPlaces_;      ///< where rayScene_'s instances stand

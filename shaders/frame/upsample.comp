@@ -1,0 +1,35 @@
+// Brings an image of every second pixel to full resolution: each pixel from the four texels around it, by how near they are and by how
+// close to the pixel's own plane they lie.
+#include "lib/space.glsl"
+#include "lib/normals.glsl"
+
+const int COARSE = 2;
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (!insideRegion(pixel)) return;
+    float z = texelFetch(depth, pixel, 0).r;
+    if (isBackground(z)) {
+        write_result(vec4(1));
+        return;
+    }
+    vec3 position = viewPosition(pixel, z);
+    vec3 n = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    float perFootprint = 1.0 / pixelFootprint(z);
+    ivec2 base = pixel / COARSE, odd = pixel - base * COARSE, last = (view.size - 1) / COARSE;
+    float sum = 0.0, total = 0.0, nearest = 3.4e38, ofNearest = 1.0;
+    for (int y = 0; y <= odd.y; ++y)
+        for (int x = 0; x <= odd.x; ++x) {
+            ivec2 texel = min(base + ivec2(x, y), last);
+            float there = texelFetch(coarseDepth, texel, 0).r;
+            if (isBackground(there)) continue;
+            float distance = abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
+            float value = texelFetch(source, texel, 0).r;
+            // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.
+            float weight = 1.0 / (1.0 + distance * distance);
+            sum += weight * value, total += weight;
+            if (distance < nearest) nearest = distance, ofNearest = value;
+        }
+    // None lies near: the one that lies nearest.
+    write_result(vec4(nearest < 4.0 ? sum / total : ofNearest));
+}

@@ -1,0 +1,33 @@
+// What the techniques of ambient occlusion share besides their definition: resolution and the names of their results.
+#pragma once
+
+#include "effects/technique.h"
+#include "frame/falloff.h"
+
+namespace limn {
+
+enum class Resolution { full, half };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<Resolution> = {"full", "half"};
+
+/// The images that a technique compares, at its resolution.
+struct OcclusionInputs {
+    ResourceId depth;    ///< at the technique's resolution
+    ResourceId normal;   ///< geometric, always at full resolution
+    int coarseness = 1;  ///< pixels of the picture per texel, each way
+};
+
+/// Half resolution adds a pass that picks every second depth.
+OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution);
+
+/// The image that a technique writes.
+ResourceId occlusionImage(EffectBuilder& graph, const OcclusionInputs& inputs);
+
+/// Makes the image the picture's ambient occlusion; at half resolution after a pass that brings it to full resolution, each pixel from the
+/// four nearest texels, weighted by how well they lie in the pixel's plane (joint bilateral upsampling, Kopf et al. 2007).
+void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, ResourceId image);
+
+/// Adds what every technique's shader needs to know: COARSENESS, FALLOFF.
+void defineOcclusion(Pass& pass, const OcclusionInputs& inputs, Falloff falloff);
+
+}  // namespace limn

@@ -1,0 +1,13 @@
+// The best that a depth buffer allows: rays against the buffer's own triangles.
+#pragma once
+
+#include "reference/ray_scene.h"
+
+namespace limn {
+
+/// A depth buffer as an open shell: neighbouring pixels are joined into triangles where each lies on the other's tangent plane, to within two
+/// widths of a pixel; nothing is there where they do not. `depth` and `normals` (view space, three per pixel, rows from the upper left) are
+/// of `view`'s region.
+std::unique_ptr<RayScene> buildShell(const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals);
+
+}  // namespace limn
