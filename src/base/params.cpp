@@ -372,6 +372,12 @@ const FieldType& fieldType<std::array<glm::vec4, 64>>() {
     return type;
 }
 
+template <>
+const FieldType& fieldType<std::array<glm::vec4, 256>>() {
+    static constexpr FieldType type = arrayType<std::array<glm::vec4, 256>>("vec4[256]");
+    return type;
+}
+
 const Field* findField(Schema schema, std::string_view name) {
     for (const auto& field : schema)
         if (field.name == name) return &field;

@@ -22,17 +22,24 @@ std::uint32_t mixBits(std::uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/// Two numbers in [0, 1) as multiples of 2^-32.
-struct Point { std::uint32_t u, v; };
+/// Cosine-weighted directions around z, for the 16 pixels of a 4×4 tile one after the other. Every block of 4×4 pixels, aligned or not, shares
+/// out one additive recurrence (by the plane's golden ratio, 2^32/1.3247… and its square), so that a filter over it sees 16·n evenly spread
+/// directions; samples go on where the last one ended, and the seed shifts them all.
+std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed) {
+    std::vector<glm::vec3> directions;
+    directions.reserve(16 * static_cast<std::size_t>(rays));
+    const std::uint32_t first = static_cast<std::uint32_t>(sample) * 16 * static_cast<std::uint32_t>(rays);
+    for (std::uint32_t i = first; i < first + 16 * static_cast<std::uint32_t>(rays); ++i) {
+        const double u = (i * 3242174889u + mixBits(seed * 2 + 1)) * 0x1p-32, angle = (i * 2447445414u + mixBits(seed * 2 + 2)) * (0x1p-31 * 3.14159265358979);
+        directions.emplace_back(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle), std::sqrt(1 - u));
+    }
+    return directions;
+}
 
-/// Ray i of n of a pixel. Every aligned and unaligned 4×4 block of pixels shares out one additive recurrence (golden ratio of the plane,
-/// 2^32/1.3247… and its square), so that a filter over the block sees 16·n evenly spread directions; samples go on where the last one
-/// ended, and the seed shifts them all.
-Point direction(glm::ivec2 pixel, int ray, int rays, int sample, std::uint32_t seed) {
-    constexpr std::uint32_t kOrder[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    const std::uint32_t place = kOrder[pixel.y & 3][pixel.x & 3];
-    const std::uint32_t index = (static_cast<std::uint32_t>(sample) * 16 + place) * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(ray);
-    return {index * 3242174889u + mixBits(seed * 2 + 1), index * 2447445414u + mixBits(seed * 2 + 2)};
+/// Which of the 16 a pixel is.
+std::size_t placeInTile(glm::ivec2 pixel) {
+    constexpr std::size_t kOrder[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return kOrder[pixel.y & 3][pixel.x & 3];
 }
 
 /// Two vectors that complete a unit normal to a basis (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
@@ -53,10 +60,8 @@ public:
         rtcInitIntersectContext(&context_);
     }
 
-    void add(const Origin& origin, Point point, float* result) {
-        const float u = static_cast<float>(point.u) * 0x1p-32f, angle = static_cast<float>(point.v) * (6.283185307f * 0x1p-32f);
-        const float ring = std::sqrt(u), height = std::sqrt(std::max(0.0f, 1 - u));
-        const glm::vec3 d = origin.tangent * (ring * std::cos(angle)) + origin.bitangent * (ring * std::sin(angle)) + origin.normal * height;
+    void add(const Origin& origin, const glm::vec3& local, float* result) {
+        const glm::vec3 d = origin.tangent * local.x + origin.bitangent * local.y + origin.normal * local.z;
         RTCRay16& r = hit_.ray;
         r.org_x[count_] = origin.position.x, r.org_y[count_] = origin.position.y, r.org_z[count_] = origin.position.z;
         r.dir_x[count_] = d.x, r.dir_y[count_] = d.y, r.dir_z[count_] = d.z;
@@ -104,6 +109,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
     const int rays = query.rays;
     // Enough groups for a spread, enough rays in each to be evenly spread themselves.
     const int groups = rays >= 64 ? 16 : rays >= 16 ? 4 : 1;
+    const std::vector<glm::vec3> directions = spreadDirections(rays, view.sample, view.seed);
     const auto number = [](int value) { return static_cast<std::size_t>(value); };
     tbb::parallel_for(tbb::blocked_range<int>(part.origin.y, part.origin.y + part.size.y, 4), [&](const tbb::blocked_range<int>& rows) {
         Packet packet(scene.handle(), query);
@@ -125,7 +131,8 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
                 // more: four times their sum.
                 const double slack = (std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), 1.0}) * 2 + z) * 0x1p-22;
                 origin.position = glm::vec3(position + glm::dvec3(origin.normal) * slack);
-                for (int i = 0; i < rays; ++i) packet.add(origin, direction(pixel, i, rays, view.sample, view.seed), &hidden[number(x) * number(rays) + number(i)]);
+                const glm::vec3* local = &directions[placeInTile(pixel) * number(rays)];
+                for (int i = 0; i < rays; ++i) packet.add(origin, local[i], &hidden[number(x) * number(rays) + number(i)]);
             }
             packet.flush();
             for (int x = 0; x < part.size.x; ++x) {

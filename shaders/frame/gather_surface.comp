@@ -1,0 +1,8 @@
+// Ambient occlusion, depth and normal of each pixel in one image, for filters that fetch all three of every tap.
+#include "lib/space.glsl"
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (!insideRegion(pixel)) return;
+    write_result(vec4(texelFetch(source, pixel, 0).r, texelFetch(depth, pixel, 0).r, texelFetch(normal, pixel, 0).xy));
+}
