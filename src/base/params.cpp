@@ -238,6 +238,24 @@ std::string colorListText(const void* member) {
     return text + "]";
 }
 
+Problem readPointList(void* member, const Node& node, const Field&) {
+    if (!node.isArray()) return expected("a list of points [x, y]", node);
+    std::vector<glm::dvec2> points;
+    for (const auto& element : node.array()) {
+        if (!element.isArray() || element.array().size() != 2 || !element.array()[0].isNumber() || !element.array()[1].isNumber()) return "must be a list of points, each [x, y]";
+        points.emplace_back(element.array()[0].number(), element.array()[1].number());
+        if (!std::isfinite(points.back().x) || !std::isfinite(points.back().y)) return "has a point that is not finite";
+    }
+    *static_cast<std::vector<glm::dvec2>*>(member) = std::move(points);
+    return {};
+}
+
+std::string pointListText(const void* member) {
+    std::string text = "[";
+    for (const auto& point : *static_cast<const std::vector<glm::dvec2>*>(member)) text += fmt::format("{}[{}, {}]", text.size() > 1 ? ", " : "", numberText(static_cast<float>(point.x)), numberText(static_cast<float>(point.y)));
+    return text + "]";
+}
+
 std::string plain(std::string_view text) { return std::string(text); }
 
 }  // namespace
@@ -313,6 +331,11 @@ const FieldType& fieldType<std::vector<double>>() {
 template <>
 const FieldType& fieldType<std::vector<Color>>() {
     static constexpr FieldType type{"list of colours", 0, readColorList, colorListText, nullptr, nullptr, "", 0, 0, nullptr, {}};
+    return type;
+}
+template <>
+const FieldType& fieldType<std::vector<glm::dvec2>>() {
+    static constexpr FieldType type{"list of points", 0, readPointList, pointListText, nullptr, nullptr, "", 0, 0, nullptr, {}};
     return type;
 }
 template <>

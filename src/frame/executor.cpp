@@ -168,7 +168,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
 /// The part of an image that a pass must make: the picture and the pass's halo. Images may be coarser than the region drawn.
 static PixelRect neededPart(const PlannedPass& planned, const View& view, glm::ivec2 imageSize) {
     const int coarse = std::max(1, (view.region.size.x + imageSize.x - 1) / imageSize.x);
-    const int skipped = std::max(0, view.guard - planned.halo);
+    const int skipped = planned.whole ? 0 : std::max(0, view.guard - planned.halo);
     const glm::ivec2 first(skipped / coarse), last = (view.region.size - skipped + coarse - 1) / coarse;
     return {first, glm::min(last, imageSize) - first};
 }

@@ -39,7 +39,8 @@ constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>
 struct Read {
     std::string name;           ///< of the sampler in the shader
     ResourceId resource;
-    int halo = 0;               ///< how many pixels around its own the pass reads
+    int halo = 0;               ///< how many pixels around its own the pass wants to read
+    bool whole = false;         ///< it may read farther, as far as there is anything: all of the image must be made
 };
 
 struct Write {
@@ -121,6 +122,7 @@ struct PlannedPass {
     std::vector<bool> writes;     ///< of each Pass::writes: is it made?
     std::string reason;           ///< who asked for it
     int halo = 0;                 ///< pixels around the picture that it must make for later passes to be right up to the border
+    bool whole = false;           ///< everything that is drawn around the picture, since a later pass looks as far as it can
 };
 
 struct CulledPass {

@@ -81,13 +81,17 @@ private:
     /// A pass must make as much around the picture as its readers make, and what they read around that.
     void spreadHalos() {
         std::vector<int> halo(graph_.resources.size(), 0);
+        std::vector<bool> whole(graph_.resources.size(), false);
         for (const auto& want : wanted_) halo[index(want.resource)] = std::max(halo[index(want.resource)], want.halo);
         for (auto planned = plan_.passes.rbegin(); planned != plan_.passes.rend(); ++planned) {
             const Pass& pass = graph_.passes[static_cast<std::size_t>(planned->pass)];
-            for (const auto& write : pass.writes) planned->halo = std::max(planned->halo, halo[index(write.resource)]);
+            for (const auto& write : pass.writes) planned->halo = std::max(planned->halo, halo[index(write.resource)]), planned->whole = planned->whole || whole[index(write.resource)];
             // Even, so that images of half the size have the picture's pixels in the same places.
             planned->halo = (planned->halo + 1) / 2 * 2;
-            for (const auto& read : pass.reads) halo[index(read.resource)] = std::max(halo[index(read.resource)], planned->halo + read.halo);
+            for (const auto& read : pass.reads) {
+                halo[index(read.resource)] = std::max(halo[index(read.resource)], planned->halo + read.halo);
+                whole[index(read.resource)] = whole[index(read.resource)] || read.whole || planned->whole;
+            }
         }
     }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace limn::test {
@@ -145,17 +146,20 @@ TEST_P(EveryTechnique, isTheSameInAMirror) {
 
 // Row: a tilted plane is one plain surface: open, without lines, of one shade.
 TEST_P(EveryTechnique, seesNothingOnATiltedPlane) {
-    // Exempt, with what was measured: the paper's flat disk of points at the pixel's own depth finds half of a tilted plane nearer, and
-    // its projected depth draws lines on steep ground.
-    const std::set<std::string> exempt{"ao_toon_ssao_paper", "edges_depth_normal_paper"};
+    // Exempt, with the lowest openness measured: the papers' own designs fail here. A flat disk of points at the pixel's own depth finds half of
+    // a tilted plane nearer (squared behind a dead zone: all of it, somewhere); points compared at their own depth lie under it; a rise measured
+    // from taps beside their direction exceeds 30 degrees on steep ground; depth tangents are grey by their brightness.
+    const std::map<std::string, double> exempt{{"ao_toon_ssao_paper", 0}, {"ao_hemisphere_paper", 0.80}, {"ao_hbao_paper", 0.918}, {"ao_depth_tangent_paper", 0.852}, {"ao_depth_tangent_paper_real_time", 0.512}};
+    // And two that are right to differ: projected depth draws lines on steep ground, highlights lie on a plane where they will.
+    const std::set<std::string> different{"edges_depth_normal_paper", "shading_blinn_phong", "shading_blinn_phong_paper"};
     for (const char* lens : {"fov = 50", "orthographic_height = 4"})
-        for (const double degrees : {0.0, 45.0, 75.0, 89.0}) {
+        for (const double degrees : {0.0, 45.0, 75.0, 89.0, 89.9}) {
             const double r = glm::radians(degrees);
             const LoadedScene plane = makeScene(fmt::format("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\nposition = {}\nlook_at = [0, 0, 0]\nup = {}\n{}\n[[light]]\ndirection = [0.3, -1, 0.2]\n", toml({0, 3 * std::cos(r), 3 * std::sin(r)}), degrees == 0 ? "[0, 0, -1]" : "[0, 1, 0]", lens),
                                                 {{"p.obj", quadObj({-500, 0, 500}, {500, 0, 500}, {500, 0, -500}, {-500, 0, -500})}});
             auto config = GetParam();
             const Picture p = draw(configOf(config), plane);
-            if (exempt.contains(GetParam().name)) continue;
+            if (different.contains(GetParam().name)) continue;
             for (const auto& name : GetParam().aovs) {
                 if (name != "ambient_occlusion" && name != "edges" && name != "shade") continue;
                 const Image& image = p.aov(name);
@@ -169,11 +173,101 @@ TEST_P(EveryTechnique, seesNothingOnATiltedPlane) {
                         low = std::min(low, v), high = std::max(high, v);
                     }
                 if (low > high) continue;
-                if (name == "ambient_occlusion") EXPECT_NEAR(low, 1, 0.005) << degrees;
+                const auto known = exempt.find(GetParam().name);
+                if (name == "ambient_occlusion" && known != exempt.end()) EXPECT_GE(low, known->second - 0.005) << degrees;
+                else if (known != exempt.end()) continue;
+                else if (name == "ambient_occlusion") EXPECT_NEAR(low, 1, 0.005) << degrees;
                 else if (name == "edges") EXPECT_EQ(high, 0) << degrees;
                 else EXPECT_NEAR(high, low, 1e-3) << degrees << ": one shade";
             }
         }
+}
+
+bool isOcclusion(const Case& c) { return c.name.starts_with("ao_") || c.name.starts_with("filter_"); }
+
+/// The case's config with another radius, where its technique has one.
+std::string withRadius(const Case& c, const std::string& radius) {
+    std::string text = c.config;
+    const auto at = text.find("ao = { ");
+    if (at == std::string::npos) return text;
+    const auto name = text.find('\'', at), end = text.find('\'', name + 1);
+    const Technique* technique = findTechnique("ao", text.substr(name + 1, end - name - 1));
+    if (technique && findField(technique->schema, "radius")) text.insert(end + 1, ", radius = " + radius);
+    return text;
+}
+
+// Row: a radius below a pixel, and one beyond the picture. Every value is a share; what is too near to see hides next to nothing.
+TEST_P(EveryTechnique, standsAnyRadius) {
+    if (!isOcclusion(GetParam())) return;
+    for (const char* radius : {"1e-7", "0.001", "1e4"}) {
+        Case c = GetParam();
+        c.config = withRadius(c, radius);
+        const Picture p = draw(configOf(c), scene());
+        for (const float v : p.aov("ambient_occlusion").pixels) EXPECT_TRUE(v >= 0 && v <= 1.0001f) << v << " at radius " << radius;
+        // A millimetre in a scene of metres, seen in 72 pixels, is a hundredth of a pixel: only rays can see so near.
+        if (c.isPaper || c.config.find("preset") != std::string::npos || c.config == GetParam().config || std::string(radius) != "0.001") continue;
+        EXPECT_GE(mean(p.aov("ambient_occlusion").pixels), 0.98) << radius;
+    }
+}
+
+// Row: nothing is hidden where nothing is.
+TEST_P(EveryTechnique, leavesTheBackgroundOpen) {
+    if (!GetParam().name.starts_with("ao_") && GetParam().name != "filter_smart_gaussian" && GetParam().name != "filter_cross_bilateral" && GetParam().name != "filter_plane_aware") return;
+    const Picture p = draw(configOf(GetParam(), {72, 48}, 1), scene());
+    // Paper 002 takes the background for a far wall, and so draws silhouettes on it.
+    if (GetParam().name.starts_with("ao_depth_tangent_paper")) return;
+    int background = 0;
+    for (std::size_t i = 0; i < 72 * 48; ++i)
+        if (!std::isfinite(p.aov("depth").pixels[i])) {
+            ++background;
+            EXPECT_EQ(p.aov("ambient_occlusion").pixels[i], 1.0f);
+        }
+    EXPECT_GT(background, 100);
+}
+
+// Row: a thin card a whole radius and more in front of a wall leaves no shadow on it, and the card stays open.
+TEST_P(EveryTechnique, aDistantCardLeavesNoHalo) {
+    if (!GetParam().name.starts_with("ao_")) return;
+    // Exempt, with the lowest openness measured, less 0.02: no check of range (toon_ssao), or one that fades slowly (hemisphere); brightness, and
+    // a range of the scene's size (depth tangents).
+    const std::map<std::string, double> exempt{{"ao_toon_ssao_paper", 0}, {"ao_hemisphere", 0.89}, {"ao_hemisphere_paper", 0.885}, {"ao_depth_tangent_paper", 0.756}, {"ao_depth_tangent_paper_edges", 0.956}, {"ao_depth_tangent_paper_real_time", 0.468}};
+    const std::string obj = quadObj({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}) + quadObj({-0.5, -0.5, 1.5}, {0.5, -0.5, 1.5}, {0.5, 0.5, 1.5}, {-0.5, 0.5, 1.5});
+    Case c = GetParam();
+    c.config = withRadius(c, "0.5");
+    for (const char* lens : {"fov = 50", "orthographic_height = 4"}) {
+        const Picture p = draw(configOf(c, {96, 64}, 1), makeScene(fmt::format("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [0.3, 0.4, 6]\nlook_at = [0, 0, 0]\n{}\n", lens), {{"m.obj", obj}}));
+        const auto known = exempt.find(c.name);
+        const double low = *std::min_element(p.aov("ambient_occlusion").pixels.begin(), p.aov("ambient_occlusion").pixels.end());
+        EXPECT_GE(low, known == exempt.end() ? 0.995 : known->second) << lens;
+    }
+}
+
+// Row: twice the resolution is the same picture. Noise and outlines average out to a hundredth over 72 × 48 pixels; measured: up to 0.012, by
+// the papers' techniques that think in pixels much more.
+TEST_P(EveryTechnique, agreesWithTwiceTheResolution) {
+    if (!GetParam().name.starts_with("ao_") || GetParam().isPaper || GetParam().name.find("paper") != std::string::npos) return;
+    Case c = GetParam();
+    c.config = withRadius(c, "0.5");
+    const Picture a = draw(configOf(c, {144, 96}, 4), scene()), b = draw(configOf(c, {288, 192}, 4), scene());
+    EXPECT_NEAR(mean(a.aov("ambient_occlusion").pixels), mean(b.aov("ambient_occlusion").pixels), 0.02);
+}
+
+// Row: a camera shifted by whole pixels sees the same picture, moved: depth to the bit, occlusion but for its noise.
+TEST_P(EveryTechnique, movesWithTheLensShift) {
+    const Picture a = draw(configOf(GetParam(), {72, 48}, 1), scene()), b = draw(configOf(GetParam(), {72, 48}, 1), scene({0, 0, 0}, 1, "fov = 60\nshift = [0.125, 0]"));   // 9 of 72 pixels
+    double sum = 0;
+    int count = 0, depths = 0;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 9; x < 72; ++x) {
+            const float za = *a.aov("depth").at(x, y), zb = *b.aov("depth").at(x - 9, y);
+            depths += std::isfinite(za) != std::isfinite(zb) || (std::isfinite(za) && std::abs(za - zb) > (GetParam().name == "geometry_fast" ? 1e-3 : 4e-7) * za);   // the hardware interpolates to what it likes
+            if (isOcclusion(GetParam())) sum += *a.aov("ambient_occlusion").at(x, y) - *b.aov("ambient_occlusion").at(x - 9, y), ++count;
+        }
+    EXPECT_LE(depths, 2) << "where an edge passes within 1/256 of a pixel's centre";
+    // Noise of at most 0.35 a pixel over 3000 pixels: three sigma.
+    if (count > 0) {
+        EXPECT_NEAR(sum / count, 0, 0.02);
+    }
 }
 
 // Row: a long lens far away is an orthographic camera.
@@ -217,6 +311,7 @@ TEST(Parameters, eachStandsForItself) {
             if (f.type().components == 1 || f.type().name == "integer") value = was == numberText(f.info.min) || !std::isfinite(f.info.min) ? (std::isfinite(f.info.max) ? numberText(f.info.max) : "7") : numberText(f.info.min);
             if (f.type().name == "colour") value = "\"#123456\"";
             if (f.type().name == "list of colours") value = "[\"#123456\", \"#abcdef\"]";
+            if (f.type().name == "list of points") value = "[[0, 0], [0.25, 1], [1, 0.5]]";
             if (!f.type().names.empty()) value = was == '"' + std::string(f.type().names[0]) + '"' ? '"' + std::string(f.type().names[1]) + '"' : '"' + std::string(f.type().names[0]) + '"';
             TechniqueChoice choice{technique, technique->makeParams(), {}, "default"};
             ASSERT_NO_THROW(applySettings(choice, fmt::format("{} = {}", f.name, value))) << technique->name << "." << f.name << " = " << value;

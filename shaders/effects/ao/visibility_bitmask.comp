@@ -39,7 +39,7 @@ struct Tap {
     vec3 offset, normal;
     vec2 at;            // inSlice
     float share;        // shareBelow
-    bool exists, isNear;    // near: within the radius
+    bool exists, isNear, rises;    // near: within the radius; rises: above the surface, beyond rounding
 };
 
 // Where the way from a point within the radius to one beyond it crosses the radius.
@@ -59,7 +59,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
     float squaredRadius = params.radius * params.radius;
 #ifdef JOIN
     // The point itself, a hair to the side, so that it has a direction.
-    Tap before = Tap(vec3(0), surface, vec2(side * 1e-6 * params.radius, 0.0), side < 0.0 ? 0.0 : 1.0, true, true);
+    Tap before = Tap(vec3(0), surface, vec2(side * 1e-6 * params.radius, 0.0), side < 0.0 ? 0.0 : 1.0, true, true, false);
     float reachBefore = 0.0;
 #endif
     for (float i = 0.0; i < count; ++i) {
@@ -88,14 +88,14 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
             // Neighbours this many pixels apart are of one surface if each lies near the other's tangent plane, by as many widths of a pixel.
             vec3 way = offset - before.offset;
             float allowed = params.joinWithin * (reach - reachBefore) * pixelFootprint(min(there, -position.z - before.offset.z));
-            if (max(abs(dot(way, face)), abs(dot(way, before.normal))) <= allowed && (rises || before.at.y > 0.0)) {
+            if (max(abs(dot(way, face)), abs(dot(way, before.normal))) <= allowed && (rises || before.rises)) {
                 float from = before.share, to = share;
                 if (!isNear) to = shareBelow(s, crossing(before.at, at));
                 if (!before.isNear) from = shareBelow(s, crossing(at, before.at));
                 hidden |= sectorsBetween(from, to, dither);
             }
         }
-        before = Tap(offset, face, at, share, exists, isNear);
+        before = Tap(offset, face, at, share, exists, isNear, rises);
         reachBefore = reach;
 #endif
     }

@@ -54,7 +54,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "gtao";
-    pass.reads = {{"depth", inputs.depth, graph.view().haloOf(radius)}, {"normal", inputs.normal}};
+    pass.reads = {{"depth", inputs.depth, graph.view().haloOf(radius), true}, {"normal", inputs.normal}};
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
     pass.params = paramsBlock(kConstants, Constants{static_cast<float>(radius), params.stepGrowth, params.strength, {std::cos(turn), std::sin(turn)}});

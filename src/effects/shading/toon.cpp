@@ -7,7 +7,7 @@
 // Default mode: exactly n bands, evenly spaced to the eye, the true view direction, band edges one pixel soft. A band begins at its
 // threshold less 1e-4, so that a face lit exactly at a threshold does not flicker with the last bit of its normal.
 
-#include "effects/technique.h"
+#include "effects/shading/lighting.h"
 
 #include "base/color.h"
 
@@ -100,24 +100,10 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "toon_light";
     pass.shader = "effects/shading/toon_light";
-    pass.reads = {{"depth", graph.read(aov::depth)}, {"normal", graph.read(aov::normal)}, {"materialId", graph.read(aov::materialId)}};
-    if (const auto ao = graph.find(aov::ambientOcclusion); ao && params.aoStrength > 0) {
-        pass.reads.push_back({"ambientOcclusion", *ao});
-        pass.defines.emplace_back("WITH_AO", "");
-    }
-    if (const auto shadows = graph.shadowMaps()) {
-        pass.reads.push_back({"shadowMaps", *shadows});
-        pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
-        pass.defines.emplace_back("WITH_SHADOWS", "");
-        const auto& lights = graph.scene().lights;
-        if (std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.shadow.present && l.kind == LightKind::point; })) pass.defines.emplace_back("POINT_SHADOWS", "");
-    }
+    readLighting(graph, pass, params.aoStrength);
     if (colored) pass.defines.emplace_back("COLORED_LIGHT", "");
-    pass.defines.emplace_back("LIGHT_COUNT", std::to_string(graph.scene().lights.size()));
     pass.writes = {{"result", light}};
     pass.params = paramsBlock(kLightConstants, LightConstants{params.ambient, params.extraAmbient, params.specular, params.aoStrength, params.trueViewDirection});
-    pass.needs = SceneData::materials | SceneData::lights;
-    pass.note = std::to_string(graph.scene().lights.size()) + (graph.scene().lights.size() == 1 ? " light" : " lights");
     graph.add(std::move(pass));
 
     const ResourceId result = graph.image(aov::shade);

@@ -1,0 +1,14 @@
+// Lambert's cosine law; ambient occlusion dims the ambient light alone.
+#include "frame/lighting.glsl"
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (!insideRegion(pixel)) return;
+    vec4 color = texelFetch(albedo, pixel, 0);
+    float z = texelFetch(depth, pixel, 0).r;
+    if (!isBackground(z)) {
+        Lighting lit = lightingAt(pixel, viewPosition(pixel, z), decodeNormal(texelFetch(normal, pixel, 0).xy), vec3(0, 0, 1), 0.0, vec2(0));
+        color.rgb *= lit.diffuse * params.intensity + params.ambient * openness(pixel, params.ao_strength);
+    }
+    write_result(color);
+}

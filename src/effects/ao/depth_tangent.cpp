@@ -1,0 +1,120 @@
+// Ambient shading from depth alone, by how a surface bends between a pixel and its neighbours: the post-processing shader for edges and
+// ambient shading of paper 002 (depth tangents).
+//
+// Reads depth, nothing else; writes ambient_occlusion_raw. Per neighbour p = Δdepth/range, b = p·(2 − p/bleach), s = ½·max(b + brightness, 0),
+// o = mean of 1/(1 + s²), result o^contrast: b grows to `bleach` at p = bleach and falls again beyond, which is the check of range.
+//
+// Paper mode: each of four neighbours by itself; a plane seen at a slant darkens, and flat regions are grey by `brightness`.
+// Default mode: opposite neighbours in pairs, Δ = z − 2/(1/z₁ + 1/z₂) (orthographic: z minus their mean), which is 0 on every plane; only what
+// is concave darkens; brightness 0 keeps flat regions white; the reach is in output units and the range in the scene's, so that the picture
+// does not depend on resolution.
+
+#include "effects/ao/occlusion.h"
+
+#include <cmath>
+
+namespace limn {
+enum class TangentPairs { opposite, single };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentPairs> = {"opposite", "single"};
+enum class TangentNeighbours { diagonal, axial };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentNeighbours> = {"diagonal", "axial"};
+enum class TangentKind { raw, normalized };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentKind> = {"raw", "normalized"};
+enum class TangentDepth { linear, squared };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentDepth> = {"linear", "squared"};
+enum class TangentRange { scene, far };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentRange> = {"scene", "far"};
+
+namespace ao_depth_tangent {
+
+struct Params {
+    PictureLength reach = PictureLength::pixels(7);
+    Length range = Length::percent(2);
+    TangentRange rangeIn = TangentRange::scene;
+    float farShare = 0.8f;
+    float contrast = 64;
+    float bleach = 0.3f;
+    float brightness = 0;
+    TangentPairs pairs = TangentPairs::opposite;
+    TangentNeighbours neighbours = TangentNeighbours::diagonal;
+    TangentKind tangent = TangentKind::raw;
+    TangentDepth depth = TangentDepth::linear;
+};
+
+constexpr Field kParams[] = {
+    field<&Params::reach>("reach", {.unit = "picture", .min = 0, .max = 1000, .doc = "How far off the neighbours lie (the paper's r): pixels, millimetres or percent of the height."}),
+    field<&Params::range>("range", {.unit = "scene units", .min = 1e-9, .doc = "Depth that differences are measured by: smaller brings out small details."}),
+    field<&Params::rangeIn>("range_in", {.doc = "Measure by `range`, or by a share of the far distance as the paper does."}),
+    field<&Params::farShare>("far_share", {.min = 1e-6, .max = 100, .doc = "That share."}),
+    field<&Params::contrast>("contrast", {.min = 0, .max = 1000, .doc = "Exponent on the result."}),
+    field<&Params::bleach>("bleach", {.min = 1e-6, .max = 100, .doc = "Difference that darkens most, as a share of the range; at twice as much nothing is left."}),
+    field<&Params::brightness>("brightness", {.min = -10, .max = 10, .doc = "Added to every difference: above 0 flat regions turn grey."}),
+    field<&Params::pairs>("pairs", {.doc = "Compare with opposite neighbours together, so that planes are open at every tilt, or with each by itself."}),
+    field<&Params::neighbours>("neighbours", {.doc = "On the diagonals as in the paper's listing, or along the axes as in its figure."}),
+    field<&Params::tangent>("tangent", {.doc = "The difference itself as in the listing, or the third component of the unit tangent as in the text (single pairs only)."}),
+    field<&Params::depth>("depth", {.doc = "Distances, or their squares as the paper packs them (single pairs only)."}),
+};
+
+struct Constants {
+    glm::ivec2 reach{1};
+    float perRange = 1, contrast = 1, perBleach = 1, brightness = 0;
+    glm::vec2 step{0};
+    float far = 1;
+};
+constexpr Field kConstants[] = {
+    field<&Constants::reach>("reach", {.unit = "pixels", .doc = "Of the neighbours, whole so that opposite ones lie opposite."}),
+    field<&Constants::perRange>("perRange", {.doc = "1 over the range: normalized units, or their square."}),
+    field<&Constants::contrast>("contrast", {.doc = "Exponent on the result."}),
+    field<&Constants::perBleach>("perBleach", {.doc = "1 over the bleach."}),
+    field<&Constants::brightness>("brightness", {.doc = "Added to every difference."}),
+    field<&Constants::step>("step", {.unit = "picture sizes", .doc = "The neighbours' offset as the normalized tangent sees it."}),
+    field<&Constants::far>("far", {.unit = "normalized units", .doc = "Distance that stands for the background."}),
+};
+
+Constants derive(const Params& params, const View& view) {
+    Constants c;
+    const int reach = std::max(1, static_cast<int>(std::lround(view.pixels(params.reach))));
+    c.reach = glm::ivec2(reach);
+    const double range = params.rangeIn == TangentRange::far ? static_cast<double>(params.farShare) * view.far : view.normalized(params.range);
+    // The paper divides squared distances by twice the far distance squared.
+    c.perRange = static_cast<float>(params.depth == TangentDepth::squared ? 1 / (2 * range * range) : 1 / range);
+    c.contrast = params.contrast, c.perBleach = 1 / params.bleach, c.brightness = params.brightness;
+    c.step = glm::vec2(static_cast<float>(reach)) / glm::vec2(view.imageSize);
+    c.far = static_cast<float>(view.far);
+    return c;
+}
+
+void build(EffectBuilder& graph, const Params& params) {
+    const ResourceId result = graph.image(aov::ambientOcclusionRaw);
+    const Constants constants = derive(params, graph.view());
+    Pass pass;
+    pass.name = "depth_tangent";
+    pass.reads = {{"depth", graph.read(aov::depth), constants.reach.x}};
+    pass.writes = {{"result", result}};
+    pass.params = paramsBlock(kConstants, constants);
+    const auto define = [&](bool on, const char* name) { if (on) pass.defines.emplace_back(name, ""); };
+    define(params.pairs == TangentPairs::single, "SINGLE");
+    define(params.neighbours == TangentNeighbours::axial, "AXIAL");
+    define(params.tangent == TangentKind::normalized, "NORMALIZED_TANGENT");
+    define(params.depth == TangentDepth::squared, "SQUARED_DEPTH");
+    pass.note = "4 neighbours per pixel";
+    graph.add(std::move(pass));
+    graph.publish(aov::ambientOcclusionRaw, result);
+    graph.publish(aov::ambientOcclusion, result);
+}
+
+const Technique kDepthTangent{"ao", "depth_tangent", "How surfaces bend between a pixel and its neighbours, from depth alone (paper 002).", kParams, build,
+                              {{"paper", "As published, for ambient shading: contrast 64, r 7, bleach 0.05, brightness 0.1.",
+                                "reach = '7px', range_in = 'far', far_share = 0.8, contrast = 64, bleach = 0.05, brightness = 0.1, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"},
+                               {"paper_edges", "As published, for edges: contrast 26, r 1, bleach 1, brightness 0.",
+                                "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"},
+                               {"paper_real_time", "The real-time settings for ambient shading: r 5, bleach 0.3, brightness 1, contrast 30 read as an exponent of 3.",
+                                "reach = '5px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.3, brightness = 1, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"}}};
+
+}  // namespace ao_depth_tangent
+}  // namespace limn

@@ -1,0 +1,25 @@
+#include "effects/shading/lighting.h"
+
+#include <algorithm>
+
+namespace limn {
+
+void readLighting(EffectBuilder& graph, Pass& pass, float aoStrength) {
+    pass.reads.insert(pass.reads.end(), {{"depth", graph.read(aov::depth)}, {"normal", graph.read(aov::normal)}, {"materialId", graph.read(aov::materialId)}});
+    if (const auto ao = graph.find(aov::ambientOcclusion); ao && aoStrength > 0) {
+        pass.reads.push_back({"ambientOcclusion", *ao});
+        pass.defines.emplace_back("WITH_AO", "");
+    }
+    const auto& lights = graph.scene().lights;
+    if (const auto shadows = graph.shadowMaps()) {
+        pass.reads.push_back({"shadowMaps", *shadows});
+        pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
+        pass.defines.emplace_back("WITH_SHADOWS", "");
+        if (std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.shadow.present && l.kind == LightKind::point; })) pass.defines.emplace_back("POINT_SHADOWS", "");
+    }
+    pass.defines.emplace_back("LIGHT_COUNT", std::to_string(lights.size()));
+    pass.needs = pass.needs | SceneData::materials | SceneData::lights;
+    pass.note = std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights");
+}
+
+}  // namespace limn

@@ -1,0 +1,155 @@
+// Techniques of ambient occlusion against what they ought to find in a wedge and a corner: the truth where they weigh with the cosine, the
+// analytic value of their own weighting where they do not.
+
+#include "support/bench.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace limn::test {
+namespace {
+
+/// Mean openness of the floor between `from` and `to` units from the edge where it meets a plane that rises at `degrees` (x < 0).
+double openness(const std::string& technique, double degrees, double from, double to, const std::string& camera) {
+    const double a = glm::radians(degrees);
+    const glm::dvec3 up(-std::cos(a) * 100, std::sin(a) * 100, 0);
+    const std::string obj = quadObj({0, 0, 100}, {100, 0, 100}, {100, 0, -100}, {0, 0, -100}) + quadObj({up.x, up.y, 100}, {0, 0, 100}, {0, 0, -100}, {up.x, up.y, -100});
+    const LoadedScene scene = makeScene("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\n" + camera, {{"p.obj", obj}});
+    const Picture p = draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [192, 128]\nsamples = 1\n[ao]\n{}\nradius = 2\n[output]\naovs = ['ambient_occlusion', 'position']\n", technique)), scene);
+    double sum = 0;
+    int count = 0;
+    for (int y = 16; y < 112; ++y)
+        for (int x = 0; x < 192; ++x) {
+            const float* at = p.aov("position").at(x, y);
+            if (std::abs(at[1]) > 1e-4 || at[0] < from || at[0] > to) continue;
+            sum += *p.aov("ambient_occlusion").at(x, y), ++count;
+        }
+    EXPECT_GE(count, 90) << technique;
+    return sum / count;
+}
+
+const char* kAbove = "position = [0.4, 30, 0]\nlook_at = [0.4, 0, 0]\nup = [0, 0, -1]\northographic_height = 2.4\n";
+const char* kAside = "position = [5, 5, 2]\nlook_at = [0, 0.7, 0]\nfov = 60\n";
+
+// A plane that rises at β hides (1 − cos β)/2 of a point beside its foot. At a tenth of the radius from it the sphere's end takes a little off:
+// a direction ω meets the plane within R where −ω·m ≥ c = sin β · x/R, the area of a circle's segment cut from the disk's part beyond.
+double wedgeTruth(double degrees, double x) {
+    const double b = glm::radians(degrees), c = std::sin(b) * x / 2;
+    constexpr int n = 2000;
+    int hits = 0, all = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double u = (i + 0.5) * 2 / n - 1, v = (j + 0.5) * 2 / n - 1, r2 = u * u + v * v;
+            if (r2 >= 1) continue;
+            ++all;
+            // Towards the foot is −x; m = (sin β, cos β) in (x, y) points away from the plane, towards the floor's side.
+            hits += -(u * std::sin(b) + std::sqrt(1 - r2) * std::cos(b)) >= c;
+        }
+    return 1 - static_cast<double>(hits) / all;
+}
+
+// The floor and the wall are all the depth buffer has to show, so that horizons, bits and rays all tend to the truth: within 0.012, which steps
+// of a pixel and the open end of the wall account for (measured: at most 0.008).
+TEST(Occlusion, cosineWeightedTechniquesFindTheTruth) {
+    for (const char* technique : {"technique = 'gtao'\nslices = 16\nsteps = 128", "technique = 'hbao'\ndirections = 32\nsteps = 128", "technique = 'visibility_bitmask'\nslices = 16\nsteps = 128", "technique = 'ray_traced'\nrays = 64"})
+        for (const double degrees : {30.0, 45.0, 90.0}) {
+            if (degrees >= 90) {
+                EXPECT_NEAR(openness(technique, degrees, 0.15, 0.25, kAside), wedgeTruth(degrees, 0.2), 0.012) << technique << " at " << degrees;
+            } else {
+                EXPECT_NEAR(openness(technique, degrees, 0.19, 0.21, kAbove), wedgeTruth(degrees, 0.2), 0.012) << technique << " at " << degrees;
+            }
+        }
+}
+
+/// What horizons hide of a point `x` from the foot of a plane at β, counting directions alike: the mean of sin h − sin(t + bias), t = 0, over the
+/// highest rise within the radius 2.
+double uniformHorizons(double degrees, double x, double biasDegrees) {
+    const double slope = std::tan(glm::radians(degrees)), bias = std::sin(glm::radians(biasDegrees));
+    constexpr int n = 2000;
+    double hidden = 0;
+    for (int i = 0; i < n; ++i) {
+        const double cosine = std::cos(2 * std::acos(-1.0) * (i + 0.5) / n);
+        double highest = bias;
+        for (double s = x; s < 2; s += 0.002) {
+            const double h = (s * cosine - x) * slope;
+            if (h > 0 && s * s + h * h <= 4) highest = std::max(highest, h / std::hypot(s, h));
+        }
+        hidden += (highest - bias) / n;
+    }
+    return hidden;
+}
+
+// Bavoil & Sainz count directions alike: β/π as x goes to 0, with their bias what h > t + bias leaves.
+TEST(Occlusion, uniformHorizonsHideWhatTheirFormulaSays) {
+    EXPECT_NEAR(uniformHorizons(45, 1e-3, 0), 0.25, 1e-3);
+    for (const double bias : {0.0, 10.0, 30.0})
+        for (const double degrees : {30.0, 45.0, 60.0}) {
+            const std::string paper = fmt::format("technique = 'hbao'\nmode = 'paper'\nangle_bias = {}\nfalloff = 'none'\ndirections = 32\nsteps = 128\nclamp_taps = false", bias);
+            EXPECT_NEAR(1 - openness(paper, degrees, 0.09, 0.11, kAbove), uniformHorizons(degrees, 0.1, bias), 0.01) << bias << " " << degrees;
+        }
+}
+
+/// Share of points, drawn by `point` into the unit hemisphere, that lie under a plane rising at 45 degrees from a foot `x` away; radius 2.
+double pointsUnder(double x, const std::function<glm::dvec3(std::mt19937&)>& point) {
+    std::mt19937 generator(7);
+    int under = 0;
+    constexpr int n = 400000;
+    for (int i = 0; i < n; ++i) {
+        const glm::dvec3 p = point(generator) * 2.0;
+        under += p.z < p.x - x;
+    }
+    return static_cast<double>(under) / n;
+}
+
+// Each kernel hides the share of its own points that lie under the surface: of the 256 and 64 that there are, within a sixteenth root's worth
+// of chance (two sigma of 256 points: 0.05; of 64 evenly spread ones less).
+TEST(Occlusion, pointsHideTheirShare) {
+    const char* camera = "position = [0.4, 30, 0]\nlook_at = [0.4, 0, 0]\nup = [0, 0, -1]\northographic_height = 5\n";
+    const auto uniform = [](std::mt19937& g, double low, double high) { return low + (high - low) * static_cast<double>(g()) * 0x1p-32; };
+    const double lecture = pointsUnder(0.2, [&](std::mt19937& g) { return glm::normalize(glm::dvec3(uniform(g, -1, 1), uniform(g, -1, 1), uniform(g, 0, 1))) * uniform(g, 0, 1); });
+    EXPECT_NEAR(1 - openness("technique = 'hemisphere'\npoints = 256\nbias = 0\ndraw_in = 1\nrange_check = false", 45, 0.15, 0.25, camera), lecture, 0.03);
+    const double ball = pointsUnder(0.2, [&](std::mt19937& g) {
+        for (;;) {
+            const glm::dvec3 p(uniform(g, -1, 1), uniform(g, -1, 1), uniform(g, 0, 1));
+            if (glm::dot(p, p) <= 1) return p;
+        }
+    });
+    EXPECT_NEAR(1 - openness("technique = 'toon_ssao'\npoints = 64\nrange_check = false", 45, 0.15, 0.25, camera), ball, 0.02);
+}
+
+// The paper's settings: 0.852 on flat ground; the reach of neighbours that bend towards the viewer darkens, away from him lightens.
+TEST(Occlusion, depthTangentsTellConcaveFromConvex) {
+    const auto at = [](double y, const char* preset) {
+        const std::string obj = quadObj({-100, y * 100, 100}, {0, 0, 100}, {0, 0, -100}, {-100, y * 100, -100}) + quadObj({0, 0, 100}, {100, y * 100, 100}, {100, y * 100, -100}, {0, 0, -100});
+        const LoadedScene scene = makeScene("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\nposition = [0, 30, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, -1]\northographic_height = 20\nfar = 60\n", {{"p.obj", obj}});
+        const Picture p = draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [193, 129]\nsamples = 1\n[ao]\ntechnique = 'depth_tangent'\n{}\n[output]\naovs = ['ambient_occlusion']\n", preset)), scene);
+        return static_cast<double>(*p.aov("ambient_occlusion").at(96, 64));
+    };
+    const double flat = at(0, "mode = 'paper'"), concave = at(1, "mode = 'paper'"), convex = at(-1, "mode = 'paper'");
+    // The paper measures distances to the camera, not depths: beside the axis even a plane in front of it bends.
+    EXPECT_NEAR(flat, std::pow(1 / (1 + 0.0025), 64.0), 0.006);
+    EXPECT_LT(concave, flat - 0.01);
+    EXPECT_GT(convex, flat + 0.01);
+    EXPECT_EQ(at(0, "range = 10"), 1.0);
+    EXPECT_EQ(at(-1, "range = 10"), 1.0);
+    EXPECT_LT(at(1, "range = 10"), 0.8);
+}
+
+// Half resolution is the same picture but for detail: registered at the same points, it has no bias of its own.
+TEST(Occlusion, halfResolutionAgreesInTheMean) {
+    const LoadedScene scene = makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\nfov = 60\n", {{"m.obj", mixedObj()}});
+    const auto mean = [&](const char* technique, const char* resolution) {
+        const Picture p = draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [320, 240]\nsamples = 1\n[ao]\ntechnique = '{}'\nradius = 0.6\nresolution = '{}'\n[output]\naovs = ['ambient_occlusion']\n", technique, resolution)), scene);
+        double sum = 0;
+        for (const float v : p.aov("ambient_occlusion").pixels) sum += v;
+        return sum / static_cast<double>(p.aov("ambient_occlusion").pixels.size());
+    };
+    for (const char* technique : {"hbao", "gtao", "visibility_bitmask", "hemisphere"}) EXPECT_NEAR(mean(technique, "half"), mean(technique, "full"), 0.006) << technique;
+}
+
+}  // namespace
+}  // namespace limn::test
