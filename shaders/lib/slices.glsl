@@ -30,6 +30,7 @@ SightFrame sightFrame(vec3 position) {
 struct Slice {
     vec2 onScreen;      // how far the image of the point moves, in pixels, when the point moves by one normalized unit `across`
     vec3 tangent;       // in the slice, along the surface, on the side of `across`
+    vec3 upward;        // the normal over its projection's length: measures heights in the slice
     float weight;       // length of the normal's projection into the slice
     float sinN, cosN, angleN;   // of the normal's projection
 };
@@ -45,6 +46,7 @@ Slice sliceAt(SightFrame sight, vec3 position, vec3 normal, vec2 turn) {
     s.cosN = clamp(v / s.weight, 0.0, 1.0);
     s.angleN = asinSigned(s.sinN);
     s.tangent = across * s.cosN - sight.toEye * s.sinN;
+    s.upward = normal / s.weight;
     float depth = -position.z;
     s.onScreen = (view.orthographic ? across.xy : (across.xy + position.xy * (across.z / depth)) / depth) / (view.rayScale * float(COARSENESS));
     return s;
@@ -52,7 +54,7 @@ Slice sliceAt(SightFrame sight, vec3 position, vec3 normal, vec2 turn) {
 
 // Where another point lies in the slice: x along the surface, y above it. Exact for points of the slice. Taps stand on pixel centres beside
 // the slice's line; their height above the surface is kept as it is, so that a plane stays flat at every tilt.
-vec2 inSlice(Slice s, vec3 normal, vec3 offset) { return vec2(dot(offset, s.tangent), dot(offset, normal) / s.weight); }
+vec2 inSlice(Slice s, vec3 offset) { return vec2(dot(offset, s.tangent), dot(offset, s.upward)); }
 
 // Visible part of one side of a slice (side: 1 or -1), from the line of sight to a horizon whose cosine to the normal's projection is `rise`.
 float openArc(Slice s, float side, float rise) {
@@ -73,9 +75,12 @@ float marchLength(Slice s, ivec2 pixel, vec2 direction, float speed, vec3 positi
     float far = share < 0.99 ? speed * radius * inversesqrt(1.0 - share * share) : 1e9;
     vec2 last = vec2((view.size - 1) / COARSENESS) - vec2(pixel);
     vec2 room = mix(vec2(pixel), last, greaterThan(direction, vec2(0)));
-    vec2 steps = (room + 0.5) / max(abs(direction), vec2(1e-6));
+    vec2 steps = (room + 0.499) / max(abs(direction), vec2(1e-6));
     return min(far, min(steps.x, steps.y));
 }
 
 // How far along a march a step goes, 0 … 1: evenly spread, or with `growth` 1 by the square, denser near the point.
 float stepReach(float share, float growth) { return share * mix(1.0, share, growth); }
+
+// The pixel that a step of the march falls on. Steps are at least a pixel long, so that it is another pixel except at the border of what was drawn.
+ivec2 tapAt(ivec2 pixel, vec2 direction, float reach) { return clamp(ivec2(vec2(pixel) + 0.5 + direction * reach), ivec2(0), (view.size - 1) / COARSENESS); }

@@ -138,7 +138,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
             for (int x = 0; x < part.size.x; ++x) {
                 const std::size_t at = row + number(x);
                 if (surfaces.depth[at] == kBackgroundDepth) {
-                    visibility[at] = 1;
+                    if (!visibility.empty()) visibility[at] = 1;
                     if (!error.empty()) error[at] = 0;
                     continue;
                 }
@@ -146,7 +146,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
                 double sum = 0;
                 for (const float h : all) sum += static_cast<double>(h);
                 const double mean = sum / rays;
-                visibility[at] = static_cast<float>(1 - mean);
+                if (!visibility.empty()) visibility[at] = static_cast<float>(1 - mean);
                 if (error.empty()) continue;
                 double variance = 0;
                 if (groups > 1) {

@@ -24,7 +24,7 @@ struct SeenSurfaces {
     std::span<const float> normalGeometric;   ///< two octahedral coordinates per pixel (shaders/lib/normals.glsl)
 };
 
-/// Writes A of every pixel of `part` (of the region drawn) to `visibility` (background 1) and, unless empty, its standard error to `error` (background 0): from the spread
+/// Writes A of every pixel of `part` (of the region drawn) to `visibility` (background 1) and its standard error to `error` (background 0), each unless it is empty: from the spread
 /// of independent groups of rays where there are enough of them, else that of as many independent hits. In parallel; the result does not
 /// depend on threads. Origins are lifted off their surface by a few roundings of their coordinates and of the depth they came from.
 void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSurfaces& surfaces, const OcclusionQuery& query, const PixelRect& part, std::span<float> visibility, std::span<float> error);

@@ -6,7 +6,7 @@
 namespace limn {
 
 std::unique_ptr<RayScene> buildShell(const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals) {
-    constexpr double kOffPlane = 2;   // pixel footprints: what a corner's two sides differ by, and outlines exceed
+    constexpr double kOffPlane = 1;   // pixel footprints: the sides of a corner are nearer, outlines farther
     const glm::ivec2 size = view.region.size;
     TriMesh mesh;
     const auto index = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x); };
@@ -21,7 +21,7 @@ std::unique_ptr<RayScene> buildShell(const View& view, const SceneInfo& scene, s
         const glm::dvec3 pa(mesh.positions[a]), pb(mesh.positions[b]);
         const auto normal = [&](std::size_t i) { return glm::dvec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]); };
         const double footprint = view.rayScale.x * (view.orthographic ? 1 : std::min(-pa.z, -pb.z));
-        return std::max(std::abs(glm::dot(pb - pa, normal(a))), std::abs(glm::dot(pb - pa, normal(b)))) <= kOffPlane * footprint;
+        return std::min(std::abs(glm::dot(pb - pa, normal(a))), std::abs(glm::dot(pb - pa, normal(b)))) <= kOffPlane * footprint;
     };
     for (int y = 0; y + 1 < size.y; ++y)
         for (int x = 0; x + 1 < size.x; ++x) {

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "config/document.h"
 #include "frame/directions.h"
 #include "reference/ambient_occlusion.h"
@@ -90,7 +91,7 @@ private:
             else for (const auto& [key, values] : tune->table()) {
                 StudyAxis axis{key, {}};
                 if (!values.isArray() || values.array().empty()) fail(values, fmt::format("'{}' must be a list of values", key), "");
-                else for (const auto& value : values.array()) axis.values.push_back(canonicalText(value));
+                else for (const auto& value : values.array()) axis.values.push_back(value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
                 method.axes.push_back(std::move(axis));
             }
         }

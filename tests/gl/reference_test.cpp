@@ -56,6 +56,13 @@ void compare(const Picture& picture, const std::function<double(const glm::dvec3
     EXPECT_LE(std::sqrt(squares / count), 1.2 * std::sqrt(expected / count) + 5e-4);
 }
 
+TEST(Reference, itsErrorCanBeAskedForAlone) {
+    const LoadedScene scene = makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\nfov = 60\n", {{"m.obj", mixedObj()}});
+    const std::string text = settings(0.5, 16);
+    const Picture both = draw(makeConfig(text), scene), alone = draw(makeConfig(text.substr(0, text.find("[output]")) + "[output]\naovs = ['ambient_occlusion_error']\n"), scene);
+    EXPECT_EQ(alone.aov("ambient_occlusion_error").pixels, both.aov("ambient_occlusion_error").pixels);
+}
+
 TEST(Reference, aPlaneIsOpen) {
     const LoadedScene plane = makeScene("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\nposition = [0, 3, 20]\nlook_at = [0, 0, 0]\nfov = 60\n", {{"p.obj", quadObj({-500, 0, 500}, {500, 0, 500}, {500, 0, -500}, {-500, 0, -500})}});
     for (const double radius : {0.01, 1.0, 100.0}) {

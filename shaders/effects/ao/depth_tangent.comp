@@ -2,11 +2,11 @@
 #include "lib/space.glsl"
 #include "lib/depth_tangent.glsl"
 
-const ivec2 NEIGHBOURS[4] =
+// The paper's listing takes neighbours on the diagonals, its figure along the axes.
 #ifdef AXIAL
-    ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+const vec2 NEIGHBOURS[4] = vec2[](vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -1));
 #else
-    ivec2[](ivec2(1, 1), ivec2(-1, -1), ivec2(1, -1), ivec2(-1, 1));
+const vec2 NEIGHBOURS[4] = vec2[](vec2(1, 1), vec2(-1, -1), vec2(1, -1), vec2(-1, 1));
 #endif
 
 float depthAt(ivec2 pixel) { return texelFetch(depth, clamp(pixel, ivec2(0), view.size - 1), 0).r; }
@@ -29,9 +29,9 @@ void main() {
 #ifdef SINGLE
     float here = distanceAt(pixel);
     for (int i = 0; i < 4; ++i) {
-        float p = (here - distanceAt(pixel + NEIGHBOURS[i] * params.reach)) * params.perRange;
+        float p = (here - distanceAt(pixel + ivec2(round(NEIGHBOURS[i] * params.reach)))) * params.perRange;
 #ifdef NORMALIZED_TANGENT
-        p /= length(vec3(vec2(NEIGHBOURS[i]) * params.step, p));
+        p /= length(vec3(NEIGHBOURS[i] * params.step, p));
 #endif
         sum += 0.25 * openAt(p, params.perBleach, params.brightness);
     }
@@ -41,11 +41,20 @@ void main() {
         write_result(vec4(1));
         return;
     }
-    for (int i = 0; i < 4; i += 2) {
-        float one = depthAt(pixel + NEIGHBOURS[i] * params.reach), other = depthAt(pixel + NEIGHBOURS[i + 1] * params.reach);
-        // A neighbour's absence tells nothing about how the surface bends.
-        float p = isBackground(one) || isBackground(other) ? 0.0 : (here - betweenOpposite(one, other)) * params.perRange;
-        sum += 0.5 * openAt(max(p, 0.0), params.perBleach, params.brightness);
+    // Each ring is turned against the last by 52 degrees, which brings no two of them into line.
+    vec2 turned = NEIGHBOURS[0];
+    for (int ring = RINGS; ring > 0; --ring) {
+        float reach = params.reach * float(ring) / float(RINGS);
+        for (int i = 0; i < 2; ++i) {
+            // Whole pixels, so that opposite neighbours lie opposite.
+            ivec2 offset = ivec2(round(turned * reach));
+            turned = vec2(-turned.y, turned.x);
+            float one = depthAt(pixel + offset), other = depthAt(pixel - offset);
+            // A neighbour's absence tells nothing about how the surface bends.
+            float p = isBackground(one) || isBackground(other) || offset == ivec2(0) ? 0.0 : (here - betweenOpposite(one, other)) * params.perRange;
+            sum += openAt(max(p, 0.0), params.perBleach, params.brightness) / float(2 * RINGS);
+        }
+        turned = mat2(0.6157, 0.7880, -0.7880, 0.6157) * turned;
     }
 #endif
     write_result(vec4(pow(clamp(sum, 0.0, 1.0), params.contrast)));

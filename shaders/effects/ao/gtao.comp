@@ -9,7 +9,7 @@
 const float LEAST_RISE = 1e-4;
 
 // Open part of one side of a slice, up to the highest thing within the radius.
-float openSide(Slice s, ivec2 pixel, vec3 position, vec3 normal, float side, float jitter) {
+float openSide(Slice s, ivec2 pixel, vec3 position, float side, float jitter) {
     float speed = length(s.onScreen);
     vec2 direction = s.onScreen * (side / max(speed, 1e-20));
     float farthest = marchLength(s, pixel, direction, speed, position, params.radius);
@@ -20,14 +20,12 @@ float openSide(Slice s, ivec2 pixel, vec3 position, vec3 normal, float side, flo
 #endif
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
-        ivec2 tap = ivec2(floor(vec2(pixel) + 0.5 + direction * reach));
-        if (tap == pixel || !insideRegion(tap)) continue;
-        float there = texelFetch(depth, tap, 0).r;
-        vec3 offset = viewPosition(tap, there) - position;
+        ivec2 tap = tapAt(pixel, direction, reach);
+        vec3 offset = viewPosition(tap, texelFetch(depth, tap, 0).r) - position;
         float squared = dot(offset, offset);
-        if (squared > params.radius * params.radius) continue;     // the background as well
-        vec2 at = inSlice(s, normal, offset);
-        float rise = at.y * inversesqrt(max(dot(at, at), 1e-30));
+        vec2 at = inSlice(s, offset);
+        // Without branches: what lies beyond the radius, the background as well, does not rise at all.
+        float rise = squared <= params.radius * params.radius ? at.y * inversesqrt(max(dot(at, at), 1e-30)) : 0.0;
 #if FALLOFF == FALLOFF_NONE
         horizon = max(horizon, rise);
 #else
@@ -61,7 +59,7 @@ void main() {
     vec2 turn = vec2(cos(first), sin(first));
     for (int i = 0; i < SLICES; ++i) {
         Slice s = sliceAt(sight, position, surface, turn);
-        open += s.weight * (openSide(s, pixel, position, surface, 1.0, random.y) + openSide(s, pixel, position, surface, -1.0, 1.0 - random.y));
+        open += s.weight * (openSide(s, pixel, position, 1.0, random.y) + openSide(s, pixel, position, -1.0, 1.0 - random.y));
         whole += s.weight * (openArc(s, 1.0, LEAST_RISE) + openArc(s, -1.0, LEAST_RISE));
         turn = vec2(turn.x * params.turn.x - turn.y * params.turn.y, turn.x * params.turn.y + turn.y * params.turn.x);
     }

@@ -39,7 +39,7 @@ float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float
 }
 #else
 // Open part of the half slice on one side of the line of sight.
-float openAlong(Slice s, ivec2 pixel, vec3 position, vec3 normal, float jitter) {
+float openAlong(Slice s, ivec2 pixel, vec3 position, float jitter) {
     float speed = length(s.onScreen);
     vec2 direction = s.onScreen / max(speed, 1e-20);
     float farthest = marchLength(s, pixel, direction, speed, position, params.radius);
@@ -50,13 +50,12 @@ float openAlong(Slice s, ivec2 pixel, vec3 position, vec3 normal, float jitter) 
 #endif
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
-        ivec2 tap = ivec2(floor(vec2(pixel) + 0.5 + direction * reach));
-        if (tap == pixel || !insideRegion(tap)) continue;
+        ivec2 tap = tapAt(pixel, direction, reach);
         vec3 offset = viewPosition(tap, texelFetch(depth, tap, 0).r) - position;
         float squared = dot(offset, offset);
-        if (squared > params.radius * params.radius) continue;     // the background as well
-        vec2 at = inSlice(s, normal, offset);
-        float rise = at.y * inversesqrt(max(dot(at, at), 1e-30));
+        vec2 at = inSlice(s, offset);
+        // Without branches: what lies beyond the radius, the background as well, does not rise at all.
+        float rise = squared <= params.radius * params.radius ? at.y * inversesqrt(max(dot(at, at), 1e-30)) : 0.0;
 #if FALLOFF == FALLOFF_NONE
         horizon = max(horizon, rise);
 #else
@@ -99,7 +98,7 @@ void main() {
         hidden += hiddenAlong(pixel, turn, position, surface, jitter);
 #else
         Slice s = sliceAt(sight, position, surface, turn);
-        open += s.weight * openAlong(s, pixel, position, surface, jitter);
+        open += s.weight * openAlong(s, pixel, position, jitter);
         whole += s.weight * openArc(s, 1.0, params.sinBias);
 #endif
         turn = vec2(turn.x * params.turn.x - turn.y * params.turn.y, turn.x * params.turn.y + turn.y * params.turn.x);

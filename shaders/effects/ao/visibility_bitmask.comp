@@ -69,7 +69,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
         float there = texelFetch(depth, tap, 0).r;
         vec3 offset = viewPosition(tap, there) - position;
         bool exists = !isBackground(there);
-        vec2 at = inSlice(s, surface, offset);
+        vec2 at = inSlice(s, offset);
         float squared = dot(offset, offset), share = shareBelow(s, at);
         bool isNear = exists && squared <= squaredRadius;
 #if FALLOFF != FALLOFF_NONE
@@ -79,16 +79,17 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
 #ifdef THICK
         if (isNear && rises) {
             vec3 behind = offset + (view.orthographic ? vec3(0, 0, -1) : normalize(position + offset)) * params.thickness;
-            hidden |= sectorsBetween(share, shareBelow(s, inSlice(s, surface, behind)), dither);
+            hidden |= sectorsBetween(share, shareBelow(s, inSlice(s, behind)), dither);
         }
 #endif
 #ifdef JOIN
         vec3 face = exists ? decodeNormal(texelFetch(normal, tap * COARSENESS, 0).xy) : vec3(0);
         if (exists && before.exists && (isNear || before.isNear)) {
-            // Neighbours this many pixels apart are of one surface if each lies near the other's tangent plane, by as many widths of a pixel.
+            // Neighbours are of one surface, or of two that meet, if one of them lies near the other's tangent plane. Steps of many
+            // pixels may pass over more, but not in proportion: else they join things that only stand near each other in the picture.
             vec3 way = offset - before.offset;
-            float allowed = params.joinWithin * (reach - reachBefore) * pixelFootprint(min(there, -position.z - before.offset.z));
-            if (max(abs(dot(way, face)), abs(dot(way, before.normal))) <= allowed && (rises || before.rises)) {
+            float allowed = params.joinWithin * sqrt(max(reach - reachBefore, 1.0)) * pixelFootprint(min(there, -position.z - before.offset.z));
+            if (min(abs(dot(way, face)), abs(dot(way, before.normal))) <= allowed && (rises || before.rises)) {
                 float from = before.share, to = share;
                 if (!isNear) to = shareBelow(s, crossing(before.at, at));
                 if (!before.isNear) from = shareBelow(s, crossing(at, before.at));

@@ -6,7 +6,8 @@
 //
 // Paper mode: each of four neighbours by itself; a plane seen at a slant darkens, and flat regions are grey by `brightness`.
 // Default mode: opposite neighbours in pairs, Δ = z − 2/(1/z₁ + 1/z₂) (orthographic: z minus their mean), which is 0 on every plane; only what
-// is concave darkens; brightness 0 keeps flat regions white; the reach is in output units and the range in the scene's, so that the picture
+// is concave darkens; brightness 0 keeps flat regions white; neighbours lie in several rings, so that edges cast no ghosts of themselves at the
+// reach; the reach is in output units and the range in the scene's, so that the picture
 // does not depend on resolution.
 
 #include "effects/ao/occlusion.h"
@@ -42,6 +43,7 @@ struct Params {
     float brightness = 0;
     TangentPairs pairs = TangentPairs::opposite;
     TangentNeighbours neighbours = TangentNeighbours::diagonal;
+    int rings = 4;
     TangentKind tangent = TangentKind::raw;
     TangentDepth depth = TangentDepth::linear;
 };
@@ -56,18 +58,19 @@ constexpr Field kParams[] = {
     field<&Params::brightness>("brightness", {.min = -10, .max = 10, .doc = "Added to every difference: above 0 flat regions turn grey."}),
     field<&Params::pairs>("pairs", {.doc = "Compare with opposite neighbours together, so that planes are open at every tilt, or with each by itself."}),
     field<&Params::neighbours>("neighbours", {.doc = "On the diagonals as in the paper's listing, or along the axes as in its figure."}),
+    field<&Params::rings>("rings", {.min = 1, .max = 16, .accuracy = true, .keyable = false, .doc = "How many distances up to the reach, each with neighbours between those of the last; the paper's one leaves ghosts of every edge (opposite pairs only)."}),
     field<&Params::tangent>("tangent", {.doc = "The difference itself as in the listing, or the third component of the unit tangent as in the text (single pairs only)."}),
     field<&Params::depth>("depth", {.doc = "Distances, or their squares as the paper packs them (single pairs only)."}),
 };
 
 struct Constants {
-    glm::ivec2 reach{1};
+    float reach = 1;
     float perRange = 1, contrast = 1, perBleach = 1, brightness = 0;
     glm::vec2 step{0};
     float far = 1;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::reach>("reach", {.unit = "pixels", .doc = "Of the neighbours, whole so that opposite ones lie opposite."}),
+    field<&Constants::reach>("reach", {.unit = "pixels", .doc = "Of the farthest neighbours."}),
     field<&Constants::perRange>("perRange", {.doc = "1 over the range: normalized units, or their square."}),
     field<&Constants::contrast>("contrast", {.doc = "Exponent on the result."}),
     field<&Constants::perBleach>("perBleach", {.doc = "1 over the bleach."}),
@@ -78,13 +81,12 @@ constexpr Field kConstants[] = {
 
 Constants derive(const Params& params, const View& view) {
     Constants c;
-    const int reach = std::max(1, static_cast<int>(std::lround(view.pixels(params.reach))));
-    c.reach = glm::ivec2(reach);
+    c.reach = std::max(1.0f, static_cast<float>(view.pixels(params.reach)));
     const double range = params.rangeIn == TangentRange::far ? static_cast<double>(params.farShare) * view.far : view.normalized(params.range);
     // The paper divides squared distances by twice the far distance squared.
     c.perRange = static_cast<float>(params.depth == TangentDepth::squared ? 1 / (2 * range * range) : 1 / range);
     c.contrast = params.contrast, c.perBleach = 1 / params.bleach, c.brightness = params.brightness;
-    c.step = glm::vec2(static_cast<float>(reach)) / glm::vec2(view.imageSize);
+    c.step = glm::vec2(c.reach) / glm::vec2(view.imageSize);
     c.far = static_cast<float>(view.far);
     return c;
 }
@@ -94,7 +96,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const Constants constants = derive(params, graph.view());
     Pass pass;
     pass.name = "depth_tangent";
-    pass.reads = {{"depth", graph.read(aov::depth), constants.reach.x}};
+    pass.reads = {{"depth", graph.read(aov::depth), static_cast<int>(std::ceil(constants.reach))}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, constants);
     const auto define = [&](bool on, const char* name) { if (on) pass.defines.emplace_back(name, ""); };
@@ -102,7 +104,8 @@ void build(EffectBuilder& graph, const Params& params) {
     define(params.neighbours == TangentNeighbours::axial, "AXIAL");
     define(params.tangent == TangentKind::normalized, "NORMALIZED_TANGENT");
     define(params.depth == TangentDepth::squared, "SQUARED_DEPTH");
-    pass.note = "4 neighbours per pixel";
+    pass.defines.emplace_back("RINGS", std::to_string(params.rings));
+    pass.note = params.pairs == TangentPairs::single ? "4 neighbours per pixel" : std::to_string(4 * params.rings) + " neighbours per pixel";
     graph.add(std::move(pass));
     graph.publish(aov::ambientOcclusionRaw, result);
     graph.publish(aov::ambientOcclusion, result);
@@ -110,11 +113,11 @@ void build(EffectBuilder& graph, const Params& params) {
 
 const Technique kDepthTangent{"ao", "depth_tangent", "How surfaces bend between a pixel and its neighbours, from depth alone (paper 002).", kParams, build,
                               {{"paper", "As published, for ambient shading: contrast 64, r 7, bleach 0.05, brightness 0.1.",
-                                "reach = '7px', range_in = 'far', far_share = 0.8, contrast = 64, bleach = 0.05, brightness = 0.1, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"},
+                                "reach = '7px', range_in = 'far', far_share = 0.8, contrast = 64, bleach = 0.05, brightness = 0.1, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
                                {"paper_edges", "As published, for edges: contrast 26, r 1, bleach 1, brightness 0.",
-                                "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"},
+                                "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
                                {"paper_real_time", "The real-time settings for ambient shading: r 5, bleach 0.3, brightness 1, contrast 30 read as an exponent of 3.",
-                                "reach = '5px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.3, brightness = 1, pairs = 'single', neighbours = 'diagonal', tangent = 'raw'"}}};
+                                "reach = '5px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.3, brightness = 1, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"}}};
 
 }  // namespace ao_depth_tangent
 }  // namespace limn

@@ -27,7 +27,7 @@ struct Params {
     int steps = 8;
     float thickness = 0.03f;
     bool join = true;
-    float joinWithin = 2;
+    float joinWithin = 1;
     SectorMeasure sectors = SectorMeasure::cosine;
     float stepGrowth = 0;
     Falloff falloff = Falloff::none;
@@ -41,7 +41,7 @@ constexpr Field kParams[] = {
     field<&Params::steps>("steps", {.min = 1, .max = 256, .accuracy = true, .keyable = false, .doc = "Most depths looked at on each side of a slice."}),
     field<&Params::thickness>("thickness", {.unit = "radii", .min = 0, .max = 100, .doc = "How far things are taken to reach behind what is seen of them."}),
     field<&Params::join>("join", {.doc = "Hide what lies between neighbouring taps of one surface; reads a normal per tap."}),
-    field<&Params::joinWithin>("join_within", {.unit = "step widths", .min = 0, .max = 100, .doc = "Taps are of one surface where each lies on the other's tangent plane to within this."}),
+    field<&Params::joinWithin>("join_within", {.unit = "pixel footprints", .min = 0, .max = 100, .doc = "Taps are of one surface where one lies on the other's tangent plane to within this, times the square root of the step in pixels."}),
     field<&Params::sectors>("sectors", {.doc = "Sectors of equal cosine-weighted share, or of equal angle as in the paper."}),
     field<&Params::stepGrowth>("step_growth", {.min = 0, .max = 1, .doc = "0: steps evenly spaced; 1: distances grow by the square, denser near the point."}),
     field<&Params::falloff>("falloff", {.doc = "How an occluder's weight falls with its distance, up to the radius: as the probability that it counts."}),
@@ -56,7 +56,7 @@ struct Constants {
 constexpr Field kConstants[] = {
     field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Farthest occluder."}),
     field<&Constants::thickness>("thickness", {.unit = "normalized units", .doc = "Depth of things behind their fronts."}),
-    field<&Constants::joinWithin>("joinWithin", {.unit = "step widths", .doc = "How flat a surface is between two taps."}),
+    field<&Constants::joinWithin>("joinWithin", {.unit = "pixel footprints", .doc = "How flat a surface is between two taps."}),
     field<&Constants::stepGrowth>("stepGrowth", {.doc = "How much denser the steps are near the point."}),
     field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
     field<&Constants::turn>("turn", {.doc = "Cosine and sine of the angle between slices."}),
