@@ -98,10 +98,39 @@ Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem:
     return layered;
 }
 
+/// Letters beyond ASCII belong into quotes and comments. toml++ 3.3 runs into undefined behaviour where some of them stand elsewhere
+/// (its table of blanks has no answer for U+00A0 … U+0499): they are found first.
+void checkLetters(std::string_view text, const std::string& name) {
+    std::string_view quote;   // the one that is open
+    bool comment = false;
+    int line = 1, column = 1;
+    for (std::size_t i = 0; i < text.size(); ++i, ++column) {
+        const char c = text[i];
+        if (c == '\n') {
+            comment = false, ++line, column = 0;
+            if (quote.size() == 1) quote = {};   // not closed: toml++ will say so
+        } else if (comment) {
+            continue;
+        } else if (!quote.empty()) {
+            if (c == '\\' && quote[0] == '"') ++i, ++column;
+            else if (text.substr(i).starts_with(quote)) i += quote.size() - 1, column += static_cast<int>(quote.size()) - 1, quote = {};
+        } else if (c == '#') {
+            comment = true;
+        } else if (c == '"' || c == '\'') {
+            const bool three = text.substr(i).size() >= 3 && text[i + 1] == c && text[i + 2] == c;
+            quote = text.substr(i, three ? 3 : 1);
+            if (three) i += 2, column += 2;
+        } else if (static_cast<unsigned char>(c) >= 0x80) {
+            throw Error(ExitCode::usage, {name, line, column}, "a letter beyond ASCII stands outside quotes", "put the text into quotes");
+        }
+    }
+}
+
 }  // namespace
 
 Node parseDocument(std::string_view text, const std::string& name) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    checkLetters(text, name);
     try {
         return convert(toml::parse(text, name), name);
     } catch (const toml::parse_error& error) {

@@ -49,7 +49,14 @@ Ways chooseWays(const PolyMesh& cage, const SubdivisionOptions& options) {
 
     std::vector<std::uint32_t> faces(cage.positions.size(), 0), edges(cage.positions.size(), 0);
     for (const auto v : cage.cornerPosition) ++faces[v];
-    for (const auto& edge : table.edges) ++edges[edge.a], ++edges[edge.b];
+    std::vector<std::uint32_t> rims(cage.positions.size(), 0);
+    std::vector<char> branches(cage.positions.size(), 0);
+    for (const auto& edge : table.edges)
+        for (const auto v : {edge.a, edge.b}) ++edges[v], rims[v] += edge.useCount == 1, branches[v] = branches[v] || edge.useCount > 2;
+    // Bfr 3.5 reads past the faces around a vertex where creases meet several fans of faces.
+    std::vector<char> creased(components.count, 0);
+    for (const auto& crease : cage.tags.creases)
+        if (const auto e = table.find(crease.a, crease.b); e >= 0) creased[components.ofFace[table.uses[table.edges[static_cast<std::size_t>(e)].firstUse].face]] = 1;
     for (std::size_t f = 0; f < cage.faceCount(); ++f) {
         Way& way = ofComponent[components.ofFace[f]];
         for (std::uint32_t c = cage.faceStart[f]; c < cage.faceStart[f + 1]; ++c) {
@@ -57,6 +64,10 @@ Ways chooseWays(const PolyMesh& cage, const SubdivisionOptions& options) {
             if (faces[v] == 2 && edges[v] == 2 && way == Way::bfr) {
                 way = Way::safe;
                 ways.report.safeReason = "an interior vertex with two faces";
+            }
+            if ((branches[v] || rims[v] > 2) && way == Way::bfr && creased[components.ofFace[f]]) {
+                way = Way::safe;
+                ways.report.safeReason = "creases on a non-manifold piece";
             }
             if (edges[v] > kMostSides || faces[v] > kMostSides) way = Way::plain;
         }

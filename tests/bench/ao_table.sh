@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The table of ambient occlusion: accuracy against the ray-traced truth and time, of every technique, tuned on one camera of each place and
-# scored on another. Needs LIMN_TEST_DATA. Takes about a quarter of an hour on two cores.
+# scored on another. Needs LIMN_TEST_DATA. Takes about ten minutes on two cores.
 #
 #   tests/bench/ao_table.sh [OUTPUT_FOLDER]
 set -euo pipefail

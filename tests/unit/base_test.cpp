@@ -156,6 +156,18 @@ TEST(Document, settingsLayerOn) {
     EXPECT_THROW(applySetting(d, "nothing"), Error);
 }
 
+TEST(Document, lettersBeyondAsciiBelongIntoQuotes) {
+    EXPECT_NO_THROW(parseDocument("# Zürich\na = \"Zürich \\\" ü\"\nb = 'é'\nc = \"\"\"ä\n\"ö\"\n\"\"\" # ß\nd = \"\"\n", "t"));
+    for (const char* text : {"a = 1\nb = ä\n", "a = 1\n  ü = 1\n", "a = \"x\"\nb\xC2\xA0= 1\n", "a = 1\nb = \xFF\n"}) {
+        try {
+            parseDocument(text, "t");
+            FAIL() << text;
+        } catch (const Error& error) {
+            EXPECT_NE(error.message.find("t:2:"), std::string::npos) << error.message;
+        }
+    }
+}
+
 TEST(Document, canonicalTextIgnoresOrderAndPlace) {
     EXPECT_EQ(canonicalText(parseDocument("a = 1\nb = 'x'", "1")), canonicalText(parseDocument("b = 'x'\n\n# note\na = 1", "2")));
     EXPECT_NE(canonicalText(parseDocument("a = 1", "1")), canonicalText(parseDocument("a = 2", "1")));

@@ -242,6 +242,29 @@ TEST_F(Shapes, refineToWhatHbrMade) {
     EXPECT_GT(checked, 50);
 }
 
+// Bfr 3.5 crashed on a fuzzed file of this kind: creases where several fans of faces meet in one vertex.
+TEST(Subdivision, creasesOnNonManifoldPiecesAreTakenTheSafeWay) {
+    // A book of three pages, each of two by two faces, with semi-sharp creases along and across the spine.
+    std::string book = "v 0 0 0\nv 0 1 0\nv 0 2 0\n", faces;
+    for (int page = 0; page < 3; ++page) {
+        const double a = page * 2.1;
+        const int first = 4 + page * 6;
+        for (int column = 1; column <= 2; ++column)
+            for (int row = 0; row < 3; ++row) book += fmt::format("v {} {} {}\n", column * std::cos(a), row, column * std::sin(a));
+        for (int row = 0; row < 2; ++row) {
+            faces += fmt::format("f {} {} {} {}\n", row + 1, first + row, first + row + 1, row + 2);
+            faces += fmt::format("f {} {} {} {}\n", first + row, first + 3 + row, first + 4 + row, first + row + 1);
+        }
+        faces += fmt::format("t crease 2/1/0 1 {} 2.5\nt crease 2/1/0 {} {} 1.3\n", first, first, first + 3);
+    }
+    ObjFile file = parseObj(book + faces, "book", 1);
+    SubdivisionReport report;
+    const TriMesh out = subdivide(file.mesh, withTags({}, file.mesh.tags), {true, false, false}, "book", &report);
+    EXPECT_EQ(report.safeComponents, 1u);
+    EXPECT_GT(out.triangleCount(), 50u);
+    for (const auto& p : out.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
 TEST_F(Shapes, modelsThatCorruptBfrAreTakenTheSafeWay) {
     // Run this one under valgrind and with sanitizers: Bfr 3.5 writes out of bounds on some of these. Without repair too, which drops the
     // back sides that make a plant's leaves closed pieces with vertices of two faces.
