@@ -18,18 +18,18 @@ void main() {
     float perFootprint = 1.0 / pixelFootprint(z);
     ivec2 base = pixel / COARSE, odd = pixel - base * COARSE, last = (view.size - 1) / COARSE;
     float sum = 0.0, total = 0.0, nearest = 3.4e38, ofNearest = 1.0;
-    for (int y = 0; y <= odd.y; ++y)
-        for (int x = 0; x <= odd.x; ++x) {
-            ivec2 texel = min(base + ivec2(x, y), last);
-            float there = texelFetch(coarseDepth, texel, 0).r;
-            if (isBackground(there)) continue;
-            float distance = abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
-            float value = texelFetch(source, texel, 0).r;
-            // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.
-            float weight = 1.0 / (1.0 + distance * distance);
-            sum += weight * value, total += weight;
-            if (distance < nearest) nearest = distance, ofNearest = value;
-        }
+    for (int i = 0; i < 4; ++i) {
+        // Without branches: a pixel in line with the texels has itself for its neighbour, twice or four times.
+        ivec2 texel = min(base + ivec2(i & 1, i >> 1) * odd, last);
+        float there = texelFetch(coarseDepth, texel, 0).r, value = texelFetch(source, texel, 0).r;
+        // Beyond any length where nothing is there.
+        float distance = isBackground(there) ? 1e9 : abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
+        // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.
+        float weight = 1.0 / (1.0 + distance * distance);
+        sum += weight * value, total += weight;
+        ofNearest = distance < nearest ? value : ofNearest;
+        nearest = min(nearest, distance);
+    }
     // None lies near: the one that lies nearest.
     write_result(vec4(nearest < 4.0 ? sum / total : ofNearest));
 }

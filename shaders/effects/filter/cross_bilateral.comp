@@ -25,7 +25,7 @@ void main() {
 #else
         float off = abs(there - centre) * perFootprint;
 #endif
-        float weight = exp(-float(i * i) * params.falloff) * bell(min(off * params.perStep, 1.0));
+        float weight = params.weights[abs(i) / 4][abs(i) & 3] * bell(min(off * params.perStep, 1.0));
         sum += weight * texelFetch(source, tap, 0).r, total += weight;
     }
     write_result(vec4(sum / total));

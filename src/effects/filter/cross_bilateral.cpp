@@ -27,18 +27,22 @@ constexpr Field kParams[] = {
 };
 
 struct Constants {
-    float perStep = 1, falloff = 0.1f;
+    std::array<glm::vec4, 16> weights{};
+    float perStep = 1;
     glm::ivec2 axis{1, 0};
 };
 constexpr Field kConstants[] = {
+    field<&Constants::weights>("weights", {.doc = "The Gaussian at 0, 1, 2 … pixels, four to a vector, over its middle."}),
     field<&Constants::perStep>("perStep", {.doc = "1 over the distance, in pixel footprints, at which a tap no longer counts."}),
-    field<&Constants::falloff>("falloff", {.doc = "1 / (2 sigma²)."}),
     field<&Constants::axis>("axis", {.doc = "Along which taps lie."}),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
     const int half = params.size / 2;
+    Constants constants;
+    constants.perStep = 1 / params.step;
     const double sigma = params.size / 4.0;
+    for (int i = 0; i <= half; ++i) constants.weights[static_cast<std::size_t>(i / 4)][i % 4] = static_cast<float>(std::exp(-i * i / (2 * sigma * sigma)));
     for (const bool rows : {true, false}) {
         const ResourceId result = rows ? graph.image("ambient_occlusion_rows", Format::r32f) : graph.image(aov::ambientOcclusion);
         Pass pass;
@@ -47,7 +51,8 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.reads = {{"source", graph.read(aov::ambientOcclusion), half}, {"depth", graph.read(aov::depth), half}};
         if (params.by == BilateralBy::plane) pass.reads.push_back({"normal", graph.read(aov::normalGeometric)}), pass.defines.emplace_back("BY_PLANE", "");
         pass.writes = {{"result", result}};
-        pass.params = paramsBlock(kConstants, Constants{1 / params.step, static_cast<float>(1 / (2 * sigma * sigma)), rows ? glm::ivec2(1, 0) : glm::ivec2(0, 1)});
+        constants.axis = rows ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
+        pass.params = paramsBlock(kConstants, constants);
         pass.defines.emplace_back("HALF", std::to_string(half));
         pass.note = std::to_string(2 * half + 1) + " taps per pixel";
         graph.add(std::move(pass));
