@@ -106,7 +106,7 @@ private:
     }
     std::vector<std::string> sceneData() const {
         constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"}, {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"},
-                                                             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}, {SceneData::unifiedVertices, "one index for all attributes"}};
+                                                             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}, {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)
             if (has(plan_.sceneData, flag)) names.emplace_back(text);
@@ -122,6 +122,7 @@ private:
     }
     static std::vector<std::string> remarks(const Pass& p) {
         std::vector<std::string> all{std::string(rate(p))};
+        if (p.kind == Pass::Kind::host) all.emplace_back("on the CPU");
         if (!p.note.empty()) all.push_back(p.note);
         return all;
     }

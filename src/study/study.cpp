@@ -84,7 +84,11 @@ private:
         StudyMethod method;
         static constexpr std::string_view alsoKnown[] = {"ao", "tune"};
         readFields(node, kMethod, &method, nullptr, "[[method]]", errors_, alsoKnown);
-        if (const Node* ao = node.find("ao"); ao && ao->isTable()) method.ao = *ao;
+        if (const Node* ao = node.find("ao"); ao && ao->isTable()) {
+            method.ao = *ao;
+            static constexpr std::string_view filter[] = {"filter"};
+            static_cast<void>(readChoice(*ao, "ao", "", "ao of [[method]]", errors_, filter));
+        }
         else fail(node, "a [[method]] needs 'ao', a table as in a render config", "");
         if (const Node* tune = node.find("tune")) {
             if (!tune->isTable()) fail(*tune, "'tune' must be a table of lists", "");
