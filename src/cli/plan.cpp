@@ -31,7 +31,7 @@ ExitCode runPlan(const PlanOptions& options) {
         measured.measure = true;
         renderer.render(config, loaded, frame, {});   // warms up: programs, textures
         renderer.render(config, loaded, frame, measured);
-        milliseconds = renderer.passMilliseconds();
+        for (const auto& pass : renderer.passTimes()) milliseconds.push_back(pass.milliseconds);
     }
     ExplainedPlan plan = planConfig(config, loaded, frame, maxTextureSize);
     if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all samples of one frame");

@@ -269,11 +269,10 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     }
     gl::finish();
     watch.lap("draw");
-    passMilliseconds_ = executor_.milliseconds();
     passTimes_.clear();
-    for (std::size_t i = 0; i < passMilliseconds_.size(); ++i) {
+    for (std::size_t i = 0; i < executor_.milliseconds().size(); ++i) {
         const Pass& pass = plans.averaged.graph.passes[static_cast<std::size_t>(plans.averaged.plan.passes[i].pass)];
-        passTimes_.push_back({pass.name, pass.slot, passMilliseconds_[i]});
+        passTimes_.push_back({pass.name, pass.slot, executor_.milliseconds()[i]});
     }
     result.view = plans.averagedView;
 

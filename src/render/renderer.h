@@ -53,9 +53,7 @@ public:
 
     RenderedFrame render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
 
-    /// With RenderOptions::measure: GPU milliseconds of each pass of the last frame's averaged plan.
-    const std::vector<double>& passMilliseconds() const { return passMilliseconds_; }
-    /// The same with names.
+    /// With RenderOptions::measure: of each pass of the last frame's averaged plan, in its order.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
     /// How much of that was reading images back for passes on the CPU, and sending their results on.
     double transferMilliseconds() const { return executor_.transferMilliseconds(); }
@@ -69,7 +67,6 @@ private:
     gl::Device device_;
     ShaderLibrary shaders_;
     Executor executor_;
-    std::vector<double> passMilliseconds_;
     std::vector<PassTime> passTimes_;
     std::unique_ptr<GpuScene> gpuScene_;
     std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays

@@ -4,6 +4,7 @@
 #include "lib/random.glsl"
 #include "lib/occlusion.glsl"
 #include "lib/slices.glsl"
+#include "frame/horizon.glsl"
 
 #ifdef UNIFORM_WEIGHT
 // Hidden part along one direction: sin h − sin t, where h is the highest rise of the depth image above the picture's plane and t that of the
@@ -37,39 +38,6 @@ float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float
     }
     return hidden;
 }
-#else
-// Open part of the half slice on one side of the line of sight.
-float openAlong(Slice s, ivec2 pixel, vec3 position, float jitter) {
-    float speed = length(s.onScreen);
-    vec2 direction = s.onScreen / max(speed, 1e-20);
-    float farthest = marchLength(s, pixel, direction, speed, position, params.radius);
-    float count = min(float(STEPS), max(ceil(farthest), 1.0));
-    float horizon = params.sinBias;     // sine of its height above the surface
-#if FALLOFF != FALLOFF_NONE
-    float open = openArc(s, 1.0, horizon);
-#endif
-    for (float i = 0.0; i < count; ++i) {
-        float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
-        ivec2 tap = tapAt(pixel, direction, reach);
-        vec3 offset = viewPosition(tap, texelFetch(depth, tap, 0).r) - position;
-        float squared = dot(offset, offset);
-        vec2 at = inSlice(s, offset);
-        // Without branches: what lies beyond the radius, the background as well, does not rise at all.
-        float rise = squared <= params.radius * params.radius ? at.y * inversesqrt(max(dot(at, at), 1e-30)) : 0.0;
-#if FALLOFF == FALLOFF_NONE
-        horizon = max(horizon, rise);
-#else
-        if (rise <= horizon) continue;
-        open -= falloffWeight(squared / (params.radius * params.radius)) * max(openArc(s, 1.0, horizon) - openArc(s, 1.0, min(rise, 1.0)), 0.0);
-        horizon = rise;
-#endif
-    }
-#if FALLOFF == FALLOFF_NONE
-    return openArc(s, 1.0, min(horizon, 1.0));
-#else
-    return open;
-#endif
-}
 #endif
 
 void main() {
@@ -98,7 +66,7 @@ void main() {
         hidden += hiddenAlong(pixel, turn, position, surface, jitter);
 #else
         Slice s = sliceAt(sight, position, surface, turn);
-        open += s.weight * openAlong(s, pixel, position, jitter);
+        open += s.weight * openSide(s, pixel, position, 1.0, params.sinBias, jitter);
         whole += s.weight * openArc(s, 1.0, params.sinBias);
 #endif
         turn = vec2(turn.x * params.turn.x - turn.y * params.turn.y, turn.x * params.turn.y + turn.y * params.turn.x);

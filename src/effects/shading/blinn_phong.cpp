@@ -26,17 +26,7 @@ constexpr Field kParams[] = {
     field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
 };
 
-void build(EffectBuilder& graph, const Params& params) {
-    const ResourceId result = graph.image(aov::shade);
-    Pass pass;
-    pass.name = "blinn_phong";
-    readLighting(graph, pass, params.aoStrength);
-    pass.reads.push_back({"albedo", graph.read(aov::albedo)});
-    pass.writes = {{"result", result}};
-    pass.params = paramsBlock(kParams, params);
-    graph.add(std::move(pass));
-    graph.publish(aov::shade, result);
-}
+void build(EffectBuilder& graph, const Params& params) { addLitShading(graph, "blinn_phong", paramsBlock(kParams, params), params.aoStrength); }
 
 const Technique kBlinnPhong{"shading", "blinn_phong", "Ambient, diffuse and specular light that weakens with distance (Lawonn's lecture).", kParams, build,
                             {{"paper", "As taught: ambient 0.3, exponent 8, attenuation for lights 50 units away.", "ambient = 0.3, exponent = 8, linear = 0.09, quadratic = 0.032"}}};

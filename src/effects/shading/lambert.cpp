@@ -20,17 +20,7 @@ constexpr Field kParams[] = {
     field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
 };
 
-void build(EffectBuilder& graph, const Params& params) {
-    const ResourceId result = graph.image(aov::shade);
-    Pass pass;
-    pass.name = "lambert";
-    readLighting(graph, pass, params.aoStrength);
-    pass.reads.push_back({"albedo", graph.read(aov::albedo)});
-    pass.writes = {{"result", result}};
-    pass.params = paramsBlock(kParams, params);
-    graph.add(std::move(pass));
-    graph.publish(aov::shade, result);
-}
+void build(EffectBuilder& graph, const Params& params) { addLitShading(graph, "lambert", paramsBlock(kParams, params), params.aoStrength); }
 
 const Technique kLambert{"shading", "lambert", "Lambert's cosine law, with ambient light dimmed by ambient occlusion (Schmitt).", kParams, build};
 

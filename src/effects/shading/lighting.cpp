@@ -22,4 +22,16 @@ void readLighting(EffectBuilder& graph, Pass& pass, float aoStrength) {
     pass.note = std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights");
 }
 
+void addLitShading(EffectBuilder& graph, std::string name, UniformBlock params, float aoStrength) {
+    const ResourceId result = graph.image(aov::shade);
+    Pass pass;
+    pass.name = std::move(name);
+    readLighting(graph, pass, aoStrength);
+    pass.reads.push_back({"albedo", graph.read(aov::albedo)});
+    pass.writes = {{"result", result}};
+    pass.params = std::move(params);
+    graph.add(std::move(pass));
+    graph.publish(aov::shade, result);
+}
+
 }  // namespace limn

@@ -9,4 +9,7 @@ namespace limn {
 /// light casts shadows; ambient_occlusion where there is any and `aoStrength` is above 0) and the defines that go with them.
 void readLighting(EffectBuilder& graph, Pass& pass, float aoStrength);
 
+/// A pass of the slot's own shader that lights the objects' colours, and publishes what it makes as the shade.
+void addLitShading(EffectBuilder& graph, std::string name, UniformBlock params, float aoStrength);
+
 }  // namespace limn
