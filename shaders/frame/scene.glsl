@@ -18,7 +18,7 @@ const uint NO_WORDS = 0xffffffffu;
 struct Instance {
     uint firstVertex;       // of the mesh, in positions
     uint firstTriangle;     // of the mesh, in triangles
-    uint materialTable;     // words[materialTable + i] = material of the mesh's i-th material name
+    uint materialTable;     // words[materialTable + 2·i] = material of the mesh's i-th material name, the next word its line record
     uint firstObject;       // object_id of the mesh's first part
     uint materialWords;     // words[materialWords + triangle] = number of its material name; NO_WORDS: all 0
     uint partWords;         // words[partWords + triangle] = number of its part; NO_WORDS: all 0
@@ -64,7 +64,26 @@ vec3 viewNormal(MeshFromView m, vec3 normal) {
 
 uint triangleMaterial(Instance instance, uint triangle) {
     uint local = instance.materialWords == NO_WORDS ? 0u : texelFetch(words, int(instance.materialWords + triangle)).r;
-    return texelFetch(words, int(instance.materialTable + local)).r;
+    return texelFetch(words, int(instance.materialTable + 2u * local)).r;
+}
+
+uint triangleLineRecord(Instance instance, uint triangle) {
+    uint local = instance.materialWords == NO_WORDS ? 0u : texelFetch(words, int(instance.materialWords + triangle)).r;
+    return texelFetch(words, int(instance.materialTable + 2u * local + 1u)).r;
+}
+
+// What objects and materials say about their lines: five words each, at the beginning of `words`.
+struct LineRecord {
+    vec3 color;             // linear Rec.709
+    float creaseCosine;     // below -1: as the line technique says
+    bool draws, hasColor, isCut;   // isCut: the cut face of a section
+};
+
+LineRecord lineRecordAt(uint number) {
+    int at = int(number) * 5;
+    uint flags = texelFetch(words, at + 4).r;
+    vec4 numbers = uintBitsToFloat(uvec4(texelFetch(words, at).r, texelFetch(words, at + 1).r, texelFetch(words, at + 2).r, texelFetch(words, at + 3).r));
+    return LineRecord(numbers.rgb, numbers.a, (flags & 1u) != 0u, (flags & 2u) != 0u, (flags & 4u) != 0u);
 }
 
 uint triangleObject(Instance instance, uint triangle) {

@@ -1,21 +1,108 @@
-// Draws lines of a width around where they run, from what stroke_rows.comp found in each row.
+// Draws lines of a width around where they run: exact distances to pieces of line, one coverage per pixel.
+#include "frame/scene.glsl"
 #include "lib/space.glsl"
-#include "lib/stroke.glsl"
+#include "lib/lines.glsl"
+
+#ifndef ONE_LOOK
+// Colour, and half of the width in pixels, by why there is a line.
+vec4 styleOf(uint source) {
+    return source == SILHOUETTE ? params.silhouette : source == CREASE ? params.crease : source == OBJECT ? params.object : source == MATERIAL ? params.material : params.section;
+}
+#endif
+
+// The share of a pixel that lies on the near side of a straight line whose distance from the pixel's centre, towards its far side, is s. The
+// pixel's shadow on the line's unit normal n is a trapezium; this is the area of its part.
+float shareWithin(float s, vec2 n) {
+    vec2 side = abs(n);
+    float longer = max(max(side.x, side.y), 0.7), shorter = max(min(side.x, side.y), 1e-4);
+    float rest = max(0.5 * (longer + shorter) - abs(s), 0.0);
+    float beyond = abs(s) < 0.5 * (longer - shorter) ? 0.5 - abs(s) / longer : rest * rest / (2.0 * longer * shorter);
+    return s > 0.0 ? 1.0 - beyond : beyond;
+}
+
+// How much of the pixel a line covers whose nearest point lies `away` from its centre. The line is a band around its pieces; beside them where
+// it lies wholly within, or without, of what it bounds. Its coverage is the area of its part of the pixel: the right weight in every
+// direction and at every width, those below a pixel included.
+float coverageOf(vec2 away, vec2 along, bool within, float halfWidth) {
+    float distance = length(away);
+    vec2 normal = distance > 1e-4 ? away / distance : vec2(-along.y, along.x) / max(length(along), 1e-3);
+#ifdef ONE_SIDE
+    float inside = within ? distance : -distance;
+    vec2 band = 2.0 * halfWidth * (ONE_SIDE > 0 ? vec2(0, 1) : vec2(-1, 0));
+#else
+    float inside = distance;
+    vec2 band = vec2(-halfWidth, halfWidth);
+#endif
+    return shareWithin(band.y - inside, normal) - shareWithin(band.x - inside, normal);
+}
+
+// A piece of line, as seen from a pixel.
+struct Seen { vec2 away, along; uint code; bool within; };
+
+Seen see(uvec2 code, vec2 fromCorner) {
+    Piece piece = decodePiece(code);
+    vec2 along = piece.to - piece.from, off = fromCorner - piece.from;
+    float squared = dot(along, along);
+    // A piece without a length has no direction either; its neighbours draw what it would.
+    if (squared == 0.0) off = vec2(1e4);
+    return Seen(off - clamp(dot(off, along) / max(squared, 1e-6), 0.0, 1.0) * along, along, piece.code, (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
+}
+
+// What covers the pixel: colour, and opacity there.
+vec4 top = vec4(0), rest = vec4(0);
+
+#ifdef ONE_LOOK
+// All lines look the same: the nearest decides.
+Seen nearest;
+float nearestSquared = 1e9;
+
+void add(Seen seen) {
+    float squared = dot(seen.away, seen.away);
+    if (squared < nearestSquared) nearest = seen, nearestSquared = squared;
+}
+
+void finish() {
+    if (nearestSquared < 1e9) top = vec4(params.look.rgb, coverageOf(nearest.away, nearest.along, nearest.within, params.look.a * thicknessOf(nearest.code)) * strengthOf(nearest.code));
+}
+#else
+float topWidth = 0.0;
+
+// The widest line lies on top of the others. Of pieces of one line the strongest counts, since pieces of one line join.
+void add(Seen seen) {
+    vec4 style = styleOf(sourceOf(seen.code));
+    vec4 ink = vec4(style.rgb, coverageOf(seen.away, seen.along, seen.within, style.w * thicknessOf(seen.code)) * strengthOf(seen.code));
+#ifdef WITH_RECORDS
+    LineRecord own = lineRecordAt(recordOf(seen.code));
+    if (own.hasColor) ink.rgb = own.color;
+#endif
+    bool same = style.w == topWidth && ink.rgb == top.rgb, wider = ink.a > 0.0 && style.w > topWidth;
+    vec4 below = wider ? top : ink;
+    if (!same && below.a > rest.a) rest = below;
+    if (wider || (same && ink.a > top.a)) top = ink;
+    if (wider) topWidth = style.w;
+}
+
+void finish() {}
+#endif
 
 void main() {
     ivec2 pixel = thisPixel();
-    if (!insideRegion(pixel)) return;
-    float nearest = NO_LINE;   // squared
-    for (int y = -params.window; y <= params.window; ++y) {
-        ivec2 tap = pixel + ivec2(0, y);
-        if (!insideRegion(tap)) continue;
-        vec2 row = texelFetch(rows, tap, 0).xy;
-        float toRight = max(abs(float(y)) - 0.5, 0.0), toUpper = float(y) + 0.5;
-        nearest = min(nearest, min(row.x * row.x + toRight * toRight, row.y * row.y + toUpper * toUpper));
+    if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
+    // Pieces lie on the grid of this sample's points; lines are drawn as seen from the middle of the pixel, so that all samples agree.
+    vec2 here = -view.samplePlace;
+    for (int y = -params.window; y < params.window; ++y) {
+        for (int x = -params.window; x < params.window; ++x) {
+            ivec2 cell = clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1);
+            uvec2 one = texelFetch(first, cell, 0).xy;
+            vec2 fromCorner = here - vec2(cell - pixel);
+            if (one.x == 0u) continue;
+            add(see(one, fromCorner));
+            uvec2 two = texelFetch(second, cell, 0).xy;
+            if (two.x != 0u) add(see(two, fromCorner));
+        }
     }
-    // Whole where the pixel lies in the line by half a pixel, gone where it lies out by as much: the width is right on average, however
-    // little of a pixel it is.
-    vec4 color = params.color * clamp(params.reach - sqrt(nearest) + 0.5, 0.0, 1.0);
+    finish();
+    vec4 color = params.opacity * (vec4(top.rgb, 1) * top.a + (1.0 - top.a) * rest.a * vec4(rest.rgb, 1));
 #ifdef LAYERS_BELOW
     color += texelFetch(layersBelow, pixel, 0) * (1.0 - color.a);
 #endif

@@ -310,6 +310,21 @@ const FieldType& fieldType<Color>() {
     return type;
 }
 template <>
+const FieldType& fieldType<OptionalColor>() {
+    static constexpr FieldType type{"colour or \"same\"", 0,
+                                    [](void* member, const Node& node, const Field& field) -> Problem {
+                                        auto& optional = *static_cast<OptionalColor*>(member);
+                                        optional.given = !node.text() || *node.text() != "same";
+                                        return optional.given ? readColor(&optional.color, node, field) : Problem();
+                                    },
+                                    [](const void* member) {
+                                        const auto& optional = *static_cast<const OptionalColor*>(member);
+                                        return optional.given ? colorText(&optional.color) : "\"same\"";
+                                    },
+                                    nullptr, nullptr, "", 0, 0, nullptr, {}};
+    return type;
+}
+template <>
 const FieldType& fieldType<Length>() {
     static constexpr FieldType type{"length", 1, readLength, lengthText,
                                     [](const void* member, double* numbers) { numbers[0] = static_cast<const Length*>(member)->amount, numbers[1] = static_cast<const Length*>(member)->relative; },

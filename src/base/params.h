@@ -35,6 +35,14 @@ struct Color {
     bool operator==(const Color&) const = default;
 };
 
+/// A colour that need not be given.
+struct OptionalColor {
+    bool given = false;
+    Color color;
+    Color otherwise(const Color& other) const { return given ? color : other; }
+    bool operator==(const OptionalColor&) const = default;
+};
+
 /// A length in the scene: scene units, or a fraction of the scene's bounding-box diagonal ("5%").
 struct Length {
     double amount = 0;

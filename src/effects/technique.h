@@ -27,6 +27,8 @@ struct SceneFacts {
     std::span<const Light> lights;
     bool textured = false;         ///< some drawn material has a texture
     bool coloredLight = false;     ///< some light is not grey
+    bool lineRecords = false;      ///< some object or material says something about its lines
+    bool sections = false;         ///< something is cut open
 };
 
 /// What an effect builds its passes with.

@@ -42,6 +42,10 @@ inline constexpr Aov position{"position", Format::rgba32f, {"X", "Y", "Z"}, fals
 inline constexpr Aov objectId{"object_id", Format::r32ui, {"id"}, false, false, "Number of the object (instances in scene order, their parts in file order), from 1; 0 on the background."};
 inline constexpr Aov materialId{"material_id", Format::r32ui, {"id"}, false, false, "Number of the material, from 1; 0 on the background."};
 
+// Between passes only: nobody can ask for these.
+inline constexpr Aov lineRecord{"line_record", Format::r32ui, {"id"}, false, false, "Number of what the object or its material says about its lines; 0 for nothing."};
+inline constexpr Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, false, false, "Instance, counted from 1, and triangle; on the fine raster. Only of the exact geometry."};
+
 inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &ambientOcclusionError, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
 
 }  // namespace aov

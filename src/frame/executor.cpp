@@ -20,6 +20,7 @@ std::string prelude(const Graph& graph, const PlannedPass& planned, const Unifor
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::string text = "#version 450 core\n";
     for (const auto& [name, value] : pass.defines) text += fmt::format("#define {} {}\n", name, value);
+    text += fmt::format("const int MASK_TILE = {};\n", kMaskTile);
     text += view.glsl + pass.params.glsl;
     return text;
 }
@@ -67,11 +68,14 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
             outputs += fmt::format("layout(location = {}) out {} {};\n", slot++, type, write.name);
         }
     }
+    if (!compute || pass.mask < 0) names += "#define IS_MASKED(pixel) false\n";
     if (compute) {
+        // Compute passes look at the mask themselves; screen passes are drawn only where it says.
+        if (pass.mask >= 0) names += fmt::format("#define IS_MASKED(pixel) (texelFetch({}, (pixel) / MASK_TILE, 0).r == 0.0)\n", pass.reads[static_cast<std::size_t>(pass.mask)].name);
         head += fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
         stages.push_back({gl::ShaderStage::Kind::compute, head + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
     } else if (screen) {
-        stages.push_back({gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load("frame/screen.vert")});
+        stages.push_back({gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load(pass.mask >= 0 ? "frame/tiles.vert" : "frame/screen.vert")});
         stages.push_back({gl::ShaderStage::Kind::fragment, head + "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n" + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
     } else {
         // The vertex stage needs to know what is written, so that it hands on nothing else.
@@ -154,7 +158,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         int unit = 0;
         for (const auto& read : pass.reads) texture(plan, read.resource).bindSampler(unit++);
         if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
-        else if (drawsScreen(pass)) runScreen(graph, plan, planned, view);
+        else if (drawsScreen(pass)) runScreen(graph, plan, planned, view, linked);
         else runCompute(graph, plan, planned);
         stamp();
     }
@@ -180,6 +184,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
         const auto& image = texture(plan, pass.writes[w].resource);
+        if (pass.mask >= 0) image.clear();
         image.bindImage(slot++, pass.writes[w].update);
         size = glm::max(size, image.size());
     }
@@ -211,7 +216,17 @@ void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& 
     transferMilliseconds_ += std::chrono::duration<double, std::milli>((worked - begin) + (std::chrono::steady_clock::now() - done)).count();
 }
 
-void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view) {
+/// The middles of the tiles that a mask names, as points; counted in tiles.
+static std::vector<float> maskedTiles(const gl::Texture& mask) {
+    const auto values = mask.read(1);
+    std::vector<float> tiles;
+    for (int y = 0; y < mask.size().y; ++y)
+        for (int x = 0; x < mask.size().x; ++x)
+            if (values[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.size().x) + static_cast<std::size_t>(x)] > 0) tiles.insert(tiles.end(), {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+    return tiles;
+}
+
+void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& linked) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::vector<const gl::Texture*> colours;
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
@@ -220,11 +235,27 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
     framebuffer.bind();
     gl::setDepthTest(gl::DepthTest::none);
     gl::setViewport({0, 0}, colours.front()->size());
-    if (!noVertices_) noVertices_ = gl::VertexArray::empty();
-    noVertices_.bind();
     const PixelRect part = neededPart(planned, view, colours.front()->size());
-    const gl::Scissor scissor(part.origin, part.size);
-    gl::drawScreen();
+    if (pass.mask >= 0) {
+        for (const auto* image : colours) image->clear();
+        const auto& mask = texture(plan, pass.reads[static_cast<std::size_t>(pass.mask)].resource);
+        const auto tiles = maskedTiles(mask);
+        // Whole tiles, so that none has its middle outside.
+        gl::setViewport({0, 0}, mask.size() * kMaskTile);
+        linked.setInt("tilesX", mask.size().x);
+        linked.setInt("tilesY", mask.size().y);
+        const gl::Buffer buffer(std::as_bytes(std::span(tiles)), "tiles");
+        const gl::VertexInput input{&buffer, 0, 2};
+        const gl::VertexArray points({&input, 1}, {}, "tiles");
+        points.bind();
+        const gl::Scissor scissor(part.origin, part.size);
+        if (!tiles.empty()) gl::drawPoints(static_cast<int>(tiles.size() / 2), kMaskTile);
+    } else {
+        if (!noVertices_) noVertices_ = gl::VertexArray::empty();
+        noVertices_.bind();
+        const gl::Scissor scissor(part.origin, part.size);
+        gl::drawScreen();
+    }
     gl::barrier();
 }
 

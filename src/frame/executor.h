@@ -42,7 +42,7 @@ private:
     const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
-    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view);
+    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
     void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
     bool drawsScreen(const Pass& pass) const;
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);

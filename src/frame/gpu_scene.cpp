@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -213,6 +214,11 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         throw Error(ExitCode::badData, {}, fmt::format("the scene has {} lights, more than this GL device takes ({})", scene.lights.size(), mostLights), "remove some");
 
     std::vector<std::uint32_t> words;
+    for (const auto& record : scene.lineRecords) {
+        const float numbers[] = {record.color.color.r, record.color.color.g, record.color.color.b, record.creaseAngle > 0 ? static_cast<float>(std::cos(glm::radians(record.creaseAngle))) : -2.0f};
+        for (const float number : numbers) words.push_back(std::bit_cast<std::uint32_t>(number));
+        words.push_back((record.draws ? 1u : 0u) | (record.color.given ? 2u : 0u) | (record.isCut ? 4u : 0u));
+    }
     std::uint32_t vertices = 0, triangles = 0, normals = 0, uvs = 0;
     for (const auto& mesh : meshes) {
         MeshPlace place{vertices, normals, uvs, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, mesh.pivot};
@@ -234,7 +240,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
     for (const auto& instance : scene.instances) {
         const auto& place = places_[static_cast<std::size_t>(meshOf_[numbers.size()])];
         materialTables_.push_back(static_cast<std::uint32_t>(words.size()));
-        words.insert(words.end(), instance.materials.begin(), instance.materials.end());
+        for (std::size_t i = 0; i < instance.materials.size(); ++i) words.insert(words.end(), {instance.materials[i], instance.lineRecords[i]});
         const auto number = static_cast<std::uint32_t>(numbers.size());
         commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3, static_cast<std::int32_t>(place.firstVertex), number});
         numbers.push_back(number);

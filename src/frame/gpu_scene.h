@@ -17,12 +17,14 @@ struct DrawInstance {
     glm::dmat4 worldFromMesh{1};
     std::vector<std::uint32_t> materials;   ///< of each of the mesh's material names: index into DrawScene::materials
     std::uint32_t firstObject = 1;          ///< object_id of the mesh's first part
+    std::vector<std::uint32_t> lineRecords; ///< beside materials: index into DrawScene::lineRecords
 };
 
 /// The scene at one frame, with everything resolved.
 struct DrawScene {
     std::vector<DrawInstance> instances;
     std::vector<Material> materials;
+    std::vector<LineOverride> lineRecords{LineOverride()};   ///< the first says nothing
     std::vector<Light> lights;
     Camera camera;
     SceneInfo info;

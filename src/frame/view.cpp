@@ -35,7 +35,7 @@ glm::dmat3 cameraBasis(const Camera& camera, const glm::dvec3& sceneUp) {
 struct ViewConstants {
     glm::mat4 clipFromView, worldFromView;
     glm::dvec2 rayScaleExact, rayOffsetExact;
-    glm::vec2 rayScale, rayOffset;
+    glm::vec2 rayScale, rayOffset, samplePlace;
     glm::ivec2 canvasSize, origin, size;
     glm::ivec2 placeOnRaster;
     int raster, sample;
@@ -51,6 +51,7 @@ constexpr Field kViewConstants[] = {
     field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
     field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
     field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
+    field<&ViewConstants::samplePlace>("samplePlace", {.unit = "pixels", .doc = "Where the sample's rays go within their pixels, from the centre."}),
     field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels", .doc = "Of what clip space spans: the picture and its guard band."}),
     field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the picture: negative where the guard band begins."}),
     field<&ViewConstants::size>("size", {.unit = "pixels", .doc = "Of the region drawn: the size of every screen texture."}),
@@ -149,8 +150,10 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.rayScale = glm::dvec2(width / size.x);
     // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
     const double fine = 1.0 / view.split.raster;
-    view.rasterOffset = view.rayScale * (subFrameJitter(view.subFrame(), view.split.subFrames) * fine - size * 0.5 + camera.shift * std::max(size.x, size.y));
-    view.rayOffset = view.rasterOffset + view.rayScale * ((glm::dvec2(view.placeOnRaster()) + 0.5) * fine - 0.5);
+    const glm::dvec2 jitter = subFrameJitter(view.subFrame(), view.split.subFrames) * fine, place = (glm::dvec2(view.placeOnRaster()) + 0.5) * fine - 0.5;
+    view.rasterOffset = view.rayScale * (jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
+    view.rayOffset = view.rasterOffset + view.rayScale * place;
+    view.samplePlace = jitter + place;
 
     Bounds depths;
     for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
@@ -211,6 +214,7 @@ UniformBlock viewBlock(const View& view) {
     c.rayOffsetExact = view.rayOffset;
     c.rayScale = view.rayScale;
     c.rayOffset = view.rayOffset;
+    c.samplePlace = view.samplePlace;
     c.canvasSize = view.imageSize + 2 * view.guard;
     c.origin = view.region.origin;
     c.size = view.region.size;

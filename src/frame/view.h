@@ -53,7 +53,8 @@ struct View {
     /// Where the sample's ray through pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
     /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
     glm::dvec2 rayScale{1}, rayOffset{0};
-    /// The same of the sub-frame as a whole: rayOffset without the sample's place on the fine raster.
+    glm::dvec2 samplePlace{0};      ///< where the sample's rays go within their pixels: from the centre, in pixels
+    /// rayOffset of the sub-frame as a whole, without the sample's place on the fine raster.
     glm::dvec2 rasterOffset{0};
     double near = 0, far = 0;       ///< normalized units; only paper modes depend on `far`
     double clipFar = 1;             ///< normalized units: beyond everything; orthographic depth is linear up to here

@@ -116,6 +116,13 @@ void Texture::write(std::span<const float> values) const {
     glTextureSubImage2D(id(), 0, 0, 0, size_.x, size_.y, formats[info(format_).channels], GL_FLOAT, values.data());
 }
 
+void Texture::clear() const {
+    constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA}, integers[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+    const bool isInteger = info(format_).glslPrefix == "u";
+    const auto channels = static_cast<std::size_t>(info(format_).channels);
+    glClearTexImage(id(), 0, (isInteger ? integers : formats)[channels], isInteger ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
+}
+
 std::vector<std::uint32_t> Texture::readIntegers(int channels) const {
     std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
@@ -158,7 +165,7 @@ VertexArray::VertexArray(std::span<const VertexInput> inputs, const Buffer& indi
     glCreateVertexArrays(1, &id);
     handle_ = Handle<releaseVertexArray>(id);
     label(GL_VERTEX_ARRAY, id, name);
-    glVertexArrayElementBuffer(id, indices.id());
+    if (indices) glVertexArrayElementBuffer(id, indices.id());
     GLuint binding = 0;
     for (const auto& input : inputs) {
         const auto location = static_cast<GLuint>(input.location);
@@ -233,6 +240,10 @@ void dispatch(glm::ivec2 size, glm::ivec2 group) {
     barrier();
 }
 void drawScreen() { glDrawArrays(GL_TRIANGLES, 0, 3); }
+void drawPoints(int count, int size) {
+    glPointSize(static_cast<float>(size));
+    glDrawArrays(GL_POINTS, 0, count);
+}
 void drawElements(const Buffer& commands, int count) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));

@@ -87,6 +87,7 @@ public:
 
     /// The other way round, of the whole image.
     void write(std::span<const float> values) const;
+    void clear() const;                                  ///< to 0
 
     Format format() const { return format_; }
     glm::ivec2 size() const { return size_; }
@@ -122,7 +123,7 @@ struct VertexInput {
 class VertexArray {
 public:
     VertexArray() = default;
-    VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& label);
+    VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& label);   ///< `indices` may be empty
     /// For drawings that make their vertices up.
     static VertexArray empty();
     void bind() const;
@@ -189,6 +190,7 @@ public:
 
 void dispatch(glm::ivec2 size, glm::ivec2 group);      ///< enough groups to cover the size, then a barrier
 void drawScreen();                                     ///< the three vertices of shaders/frame/screen.vert
+void drawPoints(int count, int size);                  ///< squares of so many pixels
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
 void setViewport(glm::ivec2 origin, glm::ivec2 size);
 void setDepthTest(DepthTest test);

@@ -78,6 +78,9 @@ struct HostWork {
     PixelRect part;                     ///< of the images: only this is asked for
 };
 
+/// Side of the squares of pixels by which passes are masked: what software renderers draw at once.
+inline constexpr int kMaskTile = 4;
+
 struct Pass {
     /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending them on.
     enum class Kind { compute, raster, host };
@@ -96,6 +99,9 @@ struct Pass {
     SceneData needs = SceneData::none;
     std::function<void(HostWork&)> work; ///< host passes
     std::vector<Drawing> drawings;       ///< raster passes; empty: the scene once, as the picture's camera sees it
+    /// Compute passes may be run only where a mask says: index into reads of an R8 image, one texel per kMaskTile × kMaskTile pixels. Where it is 0
+    /// the pass's images are 0. -1: everywhere.
+    int mask = -1;
     std::string note;           ///< for people: "8 taps per pixel"
 };
 

@@ -158,6 +158,17 @@ LoadedScene loadScene(const RenderConfig& config) {
     return loaded;
 }
 
+/// The number of what an object and its material say about lines; the object goes first.
+static std::uint32_t lineRecord(DrawScene& scene, const Instance& object, const Material& material) {
+    const LineOverride both{object.lines && material.lines, object.lineColor.given ? object.lineColor : material.lineColor, object.creaseAngle > 0 ? object.creaseAngle : material.creaseAngle, material.isCut};
+    const auto known = std::find(scene.lineRecords.begin(), scene.lineRecords.end(), both);
+    if (known != scene.lineRecords.end()) return static_cast<std::uint32_t>(known - scene.lineRecords.begin());
+    constexpr std::size_t kMost = 256;   // of shaders/lib/lines.glsl
+    if (scene.lineRecords.size() == kMost) throw Error(ExitCode::badData, {}, fmt::format("objects and materials give their lines more than {} different looks", kMost - 1), "let more of them share line_color and crease_angle");
+    scene.lineRecords.push_back(both);
+    return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
+}
+
 DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize) {
     const Scene& scene = loaded.scene;
     DrawScene draw;
@@ -169,8 +180,9 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
         const Instance instance = keyed.at(frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = loaded.meshes[mesh].poly;
-        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject};
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, {}};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
+        for (const auto material : placed.materials) placed.lineRecords.push_back(lineRecord(draw, instance, materials.materials[material]));
         nextObject += static_cast<std::uint32_t>(poly.partNames.size());
         draw.instances.push_back(std::move(placed));
     }
@@ -201,7 +213,8 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
 }
 
 SceneFacts sceneFacts(const DrawScene& scene) {
-    SceneFacts facts{scene.info, scene.lights, false, false};
+    SceneFacts facts{scene.info, scene.lights};
+    facts.lineRecords = scene.lineRecords.size() > 1;
     for (const auto& instance : scene.instances)
         for (const auto material : instance.materials) facts.textured = facts.textured || !scene.materials[material].texture.empty();
     for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;

@@ -41,6 +41,9 @@ constexpr Field kInstance[] = {
     field<&Instance::translate>("translate", {.unit = "scene units", .doc = "Where the mesh's origin goes."}),
     field<&Instance::rotate>("rotate", {.unit = "degrees", .doc = "Turn about x, then y, then z."}),
     field<&Instance::scale>("scale", {.doc = "Stretch along the mesh's axes; negative mirrors."}),
+    field<&Instance::lines>("lines", {.doc = "false: no lines are drawn of this object."}),
+    field<&Instance::lineColor>("line_color", {.doc = "Colour of the lines of this object; \"same\": as elsewhere."}),
+    field<&Instance::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180, .doc = "Smallest angle between normals that is drawn on this object; 0: as elsewhere."}),
     field<&Instance::matrix>("matrix", {.doc = "4×4 matrix in row order, instead of translate, rotate and scale."}),
 };
 
@@ -88,6 +91,9 @@ constexpr Field kSubdivision[] = {
 constexpr Field kMaterial[] = {
     field<&Material::name>("name", {.required = true, .doc = "Name; a material of the same name in an MTL file is replaced."}),
     field<&Material::color>("color", {.doc = "Colour of the object."}),
+    field<&Material::lines>("lines", {.doc = "false: no lines are drawn of objects of this material."}),
+    field<&Material::lineColor>("line_color", {.doc = "Colour of the lines of objects of this material; \"same\": as elsewhere."}),
+    field<&Material::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180, .doc = "Smallest angle between normals that is drawn on objects of this material; 0: as elsewhere."}),
     field<&Material::texture>("texture", {.doc = "Image multiplied onto the colour, relative to the scene file."}),
     field<&Material::shininess>("shininess", {.min = 0, .max = 10000, .doc = "Exponent of the highlight; none at 1 or below."}),
     field<&Material::specular>("specular", {.min = 0, .max = 10, .doc = "Strength of the highlight."}),

@@ -23,12 +23,25 @@ inline constexpr std::array<std::string_view, 3> enumNames<LightKind> = {"sun", 
 /// Warm paper grey: what an object without a material is drawn in.
 inline constexpr Color kPaperGrey{0.604f, 0.571f, 0.521f};  // #cbc6be
 
+/// What an object and its material say about its lines; what they leave out is as the line technique says.
+struct LineOverride {
+    bool draws = true;
+    OptionalColor color;
+    double creaseAngle = 0;     ///< degrees; 0 = not said
+    bool isCut = false;         ///< the cut face of a section
+    bool operator==(const LineOverride&) const = default;
+};
+
 struct Material {
     std::string name;
     Color color = kPaperGrey;
     std::string texture;        ///< image file multiplied onto the colour; empty = none
     float shininess = 0;        ///< Blinn–Phong exponent; no highlight at 1 or below
     float specular = 1;         ///< strength of the highlight
+    bool lines = true;          ///< are lines drawn?
+    OptionalColor lineColor;
+    double creaseAngle = 0;     ///< degrees; 0 = as the line technique says
+    bool isCut = false;         ///< the cut face of a section
 };
 
 enum class SubdivisionSchemeName { catmullClark, loop, bilinear };
@@ -76,6 +89,9 @@ struct Instance {
     glm::dvec3 rotate{0};       ///< degrees, about x, then y, then z
     glm::dvec3 scale{1};
     std::vector<double> matrix; ///< 16 numbers in row order, instead of the three
+    bool lines = true;          ///< are lines drawn?
+    OptionalColor lineColor;    ///< goes before the material's, as does:
+    double creaseAngle = 0;     ///< degrees; 0 = as the material says
 
     glm::dmat4 transform() const;
 };

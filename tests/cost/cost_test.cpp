@@ -129,9 +129,9 @@ TEST(Cost, everyEffectThatIsReadIsCounted) {
     const Drawn edges = run("[shading]\ntechnique = 'toon'\n[[edges]]\ntechnique = 'depth_normal'\n");
     const Drawn shadow = run("[shading]\ntechnique = 'toon'\n", kScene + "shadow = {}\n");
     const auto passes = [](const Drawn& r) { return r.counts.draws + r.counts.dispatches; };
-    // Four samples: one AO pass each; detection and two halves of the stroke each; one shadow map for all of them.
+    // Four samples: one AO pass each; detection, two masks, places, pieces and strokes each; one shadow map for all of them.
     EXPECT_EQ(passes(ao), passes(bare) + 4);
-    EXPECT_EQ(passes(edges), passes(bare) + 4 * 3);
+    EXPECT_EQ(passes(edges), passes(bare) + 4 * 6);
     EXPECT_EQ(passes(shadow), passes(bare) + 1);
     EXPECT_GT(ao.counts.textureBytes, bare.counts.textureBytes);
     EXPECT_GE(shadow.counts.textureBytes, bare.counts.textureBytes + 2048u * 2048 * 4);

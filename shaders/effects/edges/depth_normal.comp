@@ -1,7 +1,53 @@
-// Finds where depth or normal jump between a pixel and its neighbours to the right and above; lib/stroke.glsl says how that is written.
+// Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or belong to something else.
+#include "frame/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
-#include "lib/stroke.glsl"
+#include "lib/lines.glsl"
+
+// What is compared of a pixel.
+struct Surface {
+    float depth;
+    vec3 normal;            // for shading
+    vec3 position, face;    // view space; face: normal of the triangle
+    uint object, material, record;
+};
+
+Surface surfaceAt(ivec2 pixel) {
+    Surface s;
+    s.depth = texelFetch(depth, pixel, 0).r;
+    s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
+    s.face = decodeNormal(texelFetch(normalGeometric, pixel, 0).xy);
+#ifdef WITH_CREASES
+    s.normal = decodeNormal(texelFetch(normal, pixel, 0).xy);
+#endif
+#ifdef WITH_OBJECTS
+    s.object = texelFetch(objectId, pixel, 0).r;
+#endif
+#ifdef WITH_MATERIALS
+    s.material = texelFetch(materialId, pixel, 0).r;
+#endif
+    s.record = 0u;
+#ifdef WITH_RECORDS
+    s.record = texelFetch(lineRecord, pixel, 0).r;
+#endif
+    return s;
+}
+
+bool drawsLines(Surface s) {
+#ifdef WITH_RECORDS
+    return lineRecordAt(s.record).draws;
+#else
+    return true;
+#endif
+}
+
+float creaseCosine(Surface s) {
+#ifdef WITH_RECORDS
+    LineRecord own = lineRecordAt(s.record);
+    if (own.creaseCosine >= -1.0) return own.creaseCosine;
+#endif
+    return params.cosine;
+}
 
 #ifdef PROJECTED_DEPTH
 // Standard depth: 0 at near, 1 at far.
@@ -11,44 +57,57 @@ float projected(float z) {
 }
 #endif
 
-// What is compared of a pixel.
-struct Surface {
-    float depth;
-    vec3 normal;
-#ifndef PROJECTED_DEPTH
-    vec3 position, face;    // face: normal of the triangle
+// One surface ends in front of the other.
+bool isStep(Surface a, Surface b) {
+#ifdef PROJECTED_DEPTH
+    return abs(projected(b.depth) - projected(a.depth)) > params.depthThreshold * (1.0 - projected(a.depth));
+#else
+    // Heights of either over the other's plane. Where a surface bends, even strongly, both lie below the other's plane, or both above; where one
+    // ends in front of the other, the nearer lies above and the farther below.
+    vec3 between = b.position - a.position;
+    float ofB = dot(between, a.face), ofA = -dot(between, b.face);
+    float footprint = pixelFootprint(min(a.depth, b.depth));
+    // A fiftieth of a pixel is some hundred times the rounding of depths.
+    bool apart = ofA * ofB < 0.0 && min(abs(ofA), abs(ofB)) > 0.02 * footprint;
+    return apart && max(abs(ofA), abs(ofB)) > params.step * footprint;
 #endif
-};
-
-Surface surfaceAt(ivec2 pixel) {
-    Surface s;
-    s.depth = texelFetch(depth, pixel, 0).r;
-    s.normal = decodeNormal(texelFetch(normal, pixel, 0).xy);
-#ifndef PROJECTED_DEPTH
-    s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
-    s.face = decodeNormal(texelFetch(normalGeometric, pixel, 0).xy);
-#endif
-    return s;
 }
 
-bool isLine(Surface a, Surface b) {
-    bool outline = isBackground(a.depth) != isBackground(b.depth), empty = isBackground(a.depth) && isBackground(b.depth);
-    bool crease = dot(a.normal, b.normal) < params.cosine;
-#ifdef PROJECTED_DEPTH
-    bool jump = abs(projected(b.depth) - projected(a.depth)) > params.depthThreshold * (1.0 - projected(a.depth));
-#else
-    vec3 between = b.position - a.position;
-    float distance = max(abs(dot(between, a.face)), abs(dot(between, b.face)));
-    bool jump = distance > params.step * pixelFootprint(min(a.depth, b.depth));
+// Why there is a line between two surfaces, if there is, and whose it is. Of several reasons the last that holds counts. Written without
+// branches: software renderers take both ways of each.
+Side sideBetween(Surface a, Surface b) {
+    bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth), both = !emptyA && !emptyB;
+    bool outline = emptyA != emptyB || (both && isStep(a, b)), bIsNearer = b.depth < a.depth;
+    bool drawsA = !emptyA && drawsLines(a), drawsB = !emptyB && drawsLines(b);
+    // Where surfaces touch, a line belongs to the one that wants it, and to the nearer if both do.
+    bool ownedByB = outline ? bIsNearer : !drawsA || (drawsB && bIsNearer);
+    bool drawn = outline ? (bIsNearer ? drawsB : drawsA) : drawsA || drawsB;
+    uint source = NO_SOURCE;
+#ifdef WITH_CREASES
+    float cosine = dot(a.normal, b.normal);
+    source = both && !outline && ((drawsA && cosine < creaseCosine(a)) || (drawsB && cosine < creaseCosine(b))) ? CREASE : source;
 #endif
-    return outline || (!empty && (crease || jump));
+#ifdef WITH_MATERIALS
+    source = both && a.material != b.material ? MATERIAL : source;
+#endif
+#ifdef WITH_OBJECTS
+    source = a.object != b.object ? OBJECT : source;
+#endif
+#ifdef WITH_SILHOUETTES
+    source = outline ? SILHOUETTE : source;
+#endif
+#ifdef WITH_SECTIONS
+    bool cutA = !emptyA && lineRecordAt(a.record).isCut, cutB = !emptyB && lineRecordAt(b.record).isCut;
+    source = cutA != cutB ? SECTION : source;
+    ownedByB = cutA != cutB ? cutB : ownedByB;
+#endif
+    return Side(drawn ? source : NO_SOURCE, ownedByB, outline);
 }
 
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     Surface here = surfaceAt(pixel);
-    bool right = isLine(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1)));
-    bool above = isLine(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
-    write_result(vec4(encodeSides(right, above)));
+    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))), above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
+    write_result(uvec4(encodeSides(right, above), 0u, 0u, 0u));
 }

@@ -70,6 +70,9 @@ void writeBackground() {
 #ifdef WRITES_material_id
     write_material_id(uvec4(0));
 #endif
+#ifdef WRITES_line_record
+    write_line_record(uvec4(0));
+#endif
 }
 
 void main() {
@@ -132,6 +135,9 @@ void main() {
 #endif
 #ifdef WRITES_object_id
     write_object_id(uvec4(triangleObject(instance, triangle)));
+#endif
+#ifdef WRITES_line_record
+    write_line_record(uvec4(triangleLineRecord(instance, triangle)));
 #endif
 #if defined(WRITES_material_id) || defined(WRITES_albedo)
     uint material = triangleMaterial(instance, triangle);

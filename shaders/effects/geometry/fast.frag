@@ -43,6 +43,9 @@ void main() {
 #ifdef WRITES_object_id
     object_id = triangleObject(instance, triangle);
 #endif
+#ifdef WRITES_line_record
+    line_record = triangleLineRecord(instance, triangle);
+#endif
 #if defined(WRITES_material_id) || defined(WRITES_albedo)
     uint material = triangleMaterial(instance, triangle);
 #endif

@@ -1,12 +1,14 @@
-// Lines where depth or normal jump: pass 5 of Lajzer & Nottingham.
+// Lines where depth or normal jump: pass 5 of Lajzer & Nottingham, with what drawings need beside: objects, materials, sections.
 //
-// Each pixel is compared with its neighbours; a line of the wanted width is drawn along the sides between those that differ. The paper
-// compares a pixel with eight others instead, which draws the same line two pixels wide and no other width. Reads depth and normal;
-// writes edges: the lines in their colour, premultiplied, over those of the layers before.
+// Each pixel is compared with its neighbours at the right and above. Where they differ, the place between them where the surface ends, or
+// where two planes meet, is computed from the triangles seen: lines are as straight as the edges they stand for. Reads depth and geometric
+// normals, and as asked shading normals, ids, what objects say of their lines; writes edges: the lines in their colours, premultiplied, over
+// those of the layers before.
 //
-// Paper mode: |Δdepth| > 0.05·(1 − depth) on the standard post-projection depth, N·N' < 0.95.
-// Default mode: distance to the other's tangent plane, the larger of both ways round, in multiples of the pixel's footprint (a plane seen
-// at any tilt has no false line), and the angle between the normals.
+// Paper mode: |Δdepth| > 0.05·(1 − depth) on the standard post-projection depth, N·N' < 0.95. (The paper compares with eight neighbours, which
+// draws lines two pixels wide and no other width.)
+// Default mode: a surface ends in front of another where each pixel's surface lies on the other side of the other's tangent plane: bent
+// surfaces have both on one side, so that neither tilt nor curvature draws a false line, and the height of a step may be a fraction of a pixel.
 
 #include "effects/edges/stroke.h"
 
@@ -23,8 +25,13 @@ struct Params {
     PictureLength width = PictureLength::pixels(2);
     Color color{0.0103f, 0.0103f, 0.0103f};   // #1a1a1a
     float opacity = 1;
-    float step = 4;
+    float silhouettes = 1, creases = 1, objects = 0, materials = 0, sections = 2;
+    OptionalColor silhouetteColor, creaseColor, objectColor, materialColor, sectionColor;
+    float step = 0.5f;
     float creaseAngle = 40;
+    LineSide side = LineSide::both;
+    float fade = 0, taper = 0;
+    Length fadeFrom = Length::units(0), fadeTo = Length::percent(100);
     DepthTest depthTest = DepthTest::plane;
     float depthThreshold = 0.05f;
 };
@@ -33,9 +40,24 @@ constexpr Field kParams[] = {
     field<&Params::width>("width", {.unit = "picture", .min = 0, .max = 1000, .doc = "Width of the lines: pixels, \"0.35mm\" or \"0.2%\" of the image height."}),
     field<&Params::color>("color", {.doc = "Colour of the lines."}),
     field<&Params::opacity>("opacity", {.min = 0, .max = 1, .doc = "How much the lines cover; at 0 they are not even computed."}),
-    field<&Params::step>("step", {.unit = "pixel footprints", .min = 0.01, .max = 1e6, .doc = "Smallest step between surfaces that is drawn, in widths of a pixel at that depth (depth_test = \"plane\")."}),
+    field<&Params::silhouettes>("silhouettes", {.unit = "widths", .min = 0, .max = 100, .doc = "Weight of lines where one surface ends in front of another or of nothing; at 0 there are none."}),
+    field<&Params::creases>("creases", {.unit = "widths", .min = 0, .max = 100, .doc = "Weight of lines where a surface bends."}),
+    field<&Params::objects>("objects", {.unit = "widths", .min = 0, .max = 100, .doc = "Weight of lines where objects touch."}),
+    field<&Params::materials>("materials", {.unit = "widths", .min = 0, .max = 100, .doc = "Weight of lines where materials meet."}),
+    field<&Params::sections>("sections", {.unit = "widths", .min = 0, .max = 100, .doc = "Weight of lines around the cut faces of sections."}),
+    field<&Params::silhouetteColor>("silhouette_color", {.doc = "Colour of those lines, or \"same\" as `color`."}),
+    field<&Params::creaseColor>("crease_color", {.doc = "Colour of lines where a surface bends."}),
+    field<&Params::objectColor>("object_color", {.doc = "Colour of lines where objects touch."}),
+    field<&Params::materialColor>("material_color", {.doc = "Colour of lines where materials meet."}),
+    field<&Params::sectionColor>("section_color", {.doc = "Colour of lines around cut faces."}),
+    field<&Params::step>("step", {.unit = "pixel footprints", .min = 0.05, .max = 1e6, .doc = "Smallest step between surfaces that is drawn, in widths of a pixel at that depth (depth_test = \"plane\")."}),
     field<&Params::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0.1, .max = 180, .doc = "Smallest angle between normals that is drawn."}),
-    field<&Params::depthTest>("depth_test", {.doc = "Distance to the tangent plane, or difference of projected depths as the paper does."}),
+    field<&Params::side>("side", {.doc = "Lines lie half on the surface that they bound and half off it (both), wholly on it (inner), or wholly off it (outer)."}),
+    field<&Params::fade>("fade", {.min = 0, .max = 1, .doc = "How much of their opacity lines lose with depth."}),
+    field<&Params::taper>("taper", {.min = 0, .max = 1, .doc = "How much of their width lines lose with depth."}),
+    field<&Params::fadeFrom>("fade_from", {.unit = "scene units", .min = 0, .doc = "Depth at which they begin to."}),
+    field<&Params::fadeTo>("fade_to", {.unit = "scene units", .min = 0, .doc = "Depth at which they have."}),
+    field<&Params::depthTest>("depth_test", {.doc = "Distances to tangent planes, or difference of projected depths as the paper does."}),
     field<&Params::depthThreshold>("depth_threshold", {.min = 0, .max = 1, .doc = "Factor on (1 - depth) (depth_test = \"projected\")."}),
 };
 
@@ -62,22 +84,42 @@ Constants derive(const Params& params, const View& view) {
     return c;
 }
 
-void build(EffectBuilder& graph, const Params& params) {
-    if (params.opacity <= 0 || params.width.amount <= 0) return;
-    const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r8);
-    Pass pass;
-    pass.name = "depth_normal" + graph.layerSuffix();
-    pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normal", graph.read(aov::normal), 1}};
-    if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
-    else pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric), 1});
-    pass.writes = {{"result", sides}};
-    pass.params = paramsBlock(kConstants, derive(params, graph.view()));
-    pass.note = "2 neighbours per pixel";
-    graph.add(std::move(pass));
-    strokeLines(graph, sides, {params.width, params.color, params.opacity});
+Stroke strokeOf(const Params& params, const EffectBuilder& graph) {
+    const double width = graph.view().pixels(params.width);
+    const auto style = [&](float weight, const OptionalColor& color) { return LineStyle{width * static_cast<double>(weight), color.otherwise(params.color)}; };
+    return {style(params.silhouettes, params.silhouetteColor), style(params.creases, params.creaseColor), style(params.objects, params.objectColor),
+            style(params.materials, params.materialColor),     style(graph.scene().sections ? params.sections : 0, params.sectionColor), params.opacity, params.side, static_cast<double>(params.fade), static_cast<double>(params.taper), graph.view().normalized(params.fadeFrom), graph.view().normalized(params.fadeTo)};
 }
 
-const Technique kDepthNormal{"edges", "depth_normal", "Lines where depth or normal jump (Lajzer & Nottingham).", kParams, build,
+void build(EffectBuilder& graph, const Params& params) {
+    const Stroke stroke = strokeOf(params, graph);
+    const double widest = std::max({stroke.silhouette.width, stroke.crease.width, stroke.object.width, stroke.material.width, stroke.section.width});
+    if (params.opacity <= 0 || widest <= 0) return;
+    const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r32ui);
+    Pass pass;
+    pass.name = "depth_normal" + graph.layerSuffix();
+    pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}};
+    const auto with = [&](bool wanted, const char* define, const char* sampler, const Aov& aov) {
+        if (!wanted) return;
+        pass.defines.emplace_back(define, "");
+        pass.reads.push_back({sampler, graph.read(aov), 1});
+    };
+    if (stroke.silhouette.width > 0) pass.defines.emplace_back("WITH_SILHOUETTES", "");
+    with(stroke.crease.width > 0, "WITH_CREASES", "normal", aov::normal);
+    with(stroke.object.width > 0, "WITH_OBJECTS", "objectId", aov::objectId);
+    with(stroke.material.width > 0, "WITH_MATERIALS", "materialId", aov::materialId);
+    with(graph.scene().lineRecords, "WITH_RECORDS", "lineRecord", aov::lineRecord);
+    if (stroke.section.width > 0) pass.defines.emplace_back("WITH_SECTIONS", "");
+    if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
+    pass.writes = {{"result", sides}};
+    pass.params = paramsBlock(kConstants, derive(params, graph.view()));
+    pass.needs = SceneData::positions;
+    pass.note = "2 neighbours per pixel";
+    graph.add(std::move(pass));
+    strokeLines(graph, sides, stroke);
+}
+
+const Technique kDepthNormal{"edges", "depth_normal", "Lines where surfaces end, bend, or belong to something else (Lajzer & Nottingham).", kParams, build,
                              {{"paper", "As published: projected depth, normals more than 18 degrees apart, black lines two pixels wide.",
                                "width = '2px', color = '#000000', crease_angle = 18.1949, depth_test = 'projected', depth_threshold = 0.05"}}};
 

@@ -2,54 +2,117 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace limn {
 namespace edges_stroke {
 
 struct Constants {
-    glm::vec4 color{0};
-    float reach = 1;
+    glm::vec4 silhouette{0}, crease{0}, object{0}, material{0}, section{0}, look{0};
+    float opacity = 1;
     int window = 1;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::color>("color", {.doc = "Linear, premultiplied by the opacity."}),
-    field<&Constants::reach>("reach", {.unit = "pixels", .doc = "Half of the lines' width."}),
+    field<&Constants::silhouette>("silhouette", {.doc = "Linear colour, and half of the width in pixels, of lines where one surface ends in front of another."}),
+    field<&Constants::crease>("crease", {.doc = "The same where a surface bends."}),
+    field<&Constants::object>("object", {.doc = "The same where objects meet."}),
+    field<&Constants::material>("material", {.doc = "The same where materials meet."}),
+    field<&Constants::section>("section", {.doc = "The same around the cut faces of sections."}),
+    field<&Constants::look>("look", {.doc = "The same of all lines, where they look the same."}),
+    field<&Constants::opacity>("opacity", {.doc = "Of all lines."}),
     field<&Constants::window>("window", {.unit = "pixels", .doc = "How far lines can matter."}),
 };
+
+struct NearConstants {
+    int reach = 1;
+};
+constexpr Field kNearConstants[] = {
+    field<&NearConstants::reach>("reach", {.unit = "tiles", .doc = "How far lines can matter."}),
+};
+
+struct PlaceConstants {
+    float fade = 0, taper = 0, fadeFrom = 0, fadeScale = 0;
+};
+constexpr Field kPlaceConstants[] = {
+    field<&PlaceConstants::fade>("fade", {.doc = "Opacity lost far away."}),
+    field<&PlaceConstants::taper>("taper", {.doc = "Width lost far away."}),
+    field<&PlaceConstants::fadeFrom>("fadeFrom", {.unit = "normalized units", .doc = "Depth where lines begin to lose."}),
+    field<&PlaceConstants::fadeScale>("fadeScale", {.unit = "1/normalized units", .doc = "1 over the depth in which they lose it all."}),
+};
+
+glm::vec4 pack(const LineStyle& style) { return {style.color.r, style.color.g, style.color.b, static_cast<float>(style.width / 2)}; }
 
 }  // namespace edges_stroke
 
 void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
-    edges_stroke::Constants constants;
-    constants.color = glm::vec4(stroke.color.r, stroke.color.g, stroke.color.b, 1) * stroke.opacity;
-    constants.reach = static_cast<float>(graph.view().pixels(stroke.width) / 2);
-    // Sides lie at half pixels, and lines fade out half a pixel beyond their reach.
-    constants.window = static_cast<int>(std::ceil(constants.reach));
+    using namespace edges_stroke;
+    const bool records = graph.scene().lineRecords;
+    // Lines of one width and colour need no sorting.
+    bool oneLook = !records;
+    LineStyle widest;
+    for (const auto* style : {&stroke.silhouette, &stroke.crease, &stroke.object, &stroke.material, &stroke.section}) {
+        oneLook = oneLook && (style->width <= 0 || widest.width <= 0 || widest == *style);
+        if (style->width > widest.width) widest = *style;
+    }
+    // A line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel beside the centre of its own.
+    const int window = static_cast<int>(std::ceil((stroke.side == LineSide::both ? widest.width / 2 : widest.width) + 1));
+    const std::string suffix = graph.layerSuffix();
+    const auto pass = [&](std::string name, std::vector<Read> reads, std::vector<Write> writes, std::string note) {
+        Pass made;
+        made.name = name + suffix;
+        made.shader = "frame/" + name;
+        made.reads = std::move(reads);
+        made.writes = std::move(writes);
+        made.note = std::move(note);
+        return made;
+    };
 
-    const std::string note = fmt::format("{} taps per pixel", 2 * constants.window + 1);
-    Pass rows;
-    rows.name = "stroke_rows" + graph.layerSuffix();
-    rows.shader = "frame/stroke_rows";
-    rows.reads = {{"sides", sides, constants.window}};
-    const ResourceId perRow = graph.image("stroke_rows" + graph.layerSuffix(), Format::rg32f);
-    rows.writes = {{"result", perRow}};
-    rows.params = paramsBlock(edges_stroke::kConstants, constants);
-    rows.note = note;
-    graph.add(std::move(rows));
+    // Lines cover little of a picture: what follows runs only near them.
+    const ResourceId tiles = graph.image("line_tiles" + suffix, Format::r8, kMaskTile);
+    graph.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles}}, "where there are lines"));
+    const NearConstants nearConstants{(window + kMaskTile - 1) / kMaskTile};
+    const ResourceId near = graph.image("near_lines" + suffix, Format::r8, kMaskTile);
+    Pass spread = pass("near_lines", {{"tiles", tiles, (nearConstants.reach + 1) * kMaskTile}}, {{"result", near}}, "where lines matter");
+    spread.params = paramsBlock(kNearConstants, nearConstants);
+    graph.add(std::move(spread));
+    const Read mask{"nearLines", near, kMaskTile};
 
-    Pass draw;
-    draw.name = "stroke" + graph.layerSuffix();
-    draw.shader = "frame/stroke";
-    draw.reads = {{"rows", perRow, constants.window}};
-    draw.note = note;
+    const ResourceId crossings = graph.image("line_crossings" + suffix, Format::rg32ui);
+    Pass place = pass("line_places", {mask, {"sides", sides}, {"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}}, {{"result", crossings}}, "to 1/256 pixel");
+    place.mask = 0;
+    if (const auto visibility = graph.find(aov::visibility)) {
+        place.defines.emplace_back("WITH_TRIANGLES", "");
+        place.reads.push_back({"visibility", *visibility, 2});
+    }
+    if (records) {
+        place.defines.emplace_back("WITH_RECORDS", "");
+        place.reads.push_back({"lineRecord", graph.read(aov::lineRecord), 1});
+    }
+    place.params = paramsBlock(kPlaceConstants, PlaceConstants{static_cast<float>(stroke.fade), static_cast<float>(stroke.taper), static_cast<float>(stroke.fadeFrom), static_cast<float>(1 / std::max(stroke.fadeTo - stroke.fadeFrom, 1e-6))});
+    place.needs = SceneData::positions;
+    graph.add(std::move(place));
+
+    const ResourceId first = graph.image("line_pieces" + suffix, Format::rg32ui), second = graph.image("line_pieces_beside" + suffix, Format::rg32ui);
+    Pass join = pass("line_pieces", {mask, {"crossings", crossings, 2}}, {{"first", first}, {"second", second}}, "crossings joined");
+    join.mask = 0;
+    graph.add(std::move(join));
+
+    Pass draw = pass("stroke", {mask, {"first", first, window}, {"second", second, window}}, {}, fmt::format("{} cells per pixel near lines", 4 * window * window));
+    if (oneLook) draw.defines.emplace_back("ONE_LOOK", "");
+    if (stroke.side != LineSide::both) draw.defines.emplace_back("ONE_SIDE", stroke.side == LineSide::inner ? "1" : "-1");
+    if (records) draw.defines.emplace_back("WITH_RECORDS", "");
+    draw.needs = SceneData::positions;
+    draw.params = paramsBlock(kConstants, Constants{pack(stroke.silhouette), pack(stroke.crease), pack(stroke.object), pack(stroke.material), pack(stroke.section), pack(widest), stroke.opacity, window});
     if (const auto below = graph.find(aov::edges)) {
+        // Away from this layer's lines the layers below must stay.
         draw.reads.push_back({"layersBelow", *below});
         draw.defines.emplace_back("LAYERS_BELOW", "");
+    } else {
+        draw.mask = 0;
     }
-    const ResourceId result = graph.image("edges" + graph.layerSuffix(), aov::edges.format);
+    const ResourceId result = graph.image("edges" + suffix, aov::edges.format);
     draw.writes = {{"result", result}};
-    draw.params = paramsBlock(edges_stroke::kConstants, constants);
     graph.add(std::move(draw));
     graph.publish(aov::edges, result);
 }

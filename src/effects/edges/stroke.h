@@ -5,16 +5,30 @@
 
 namespace limn {
 
-/// How lines look, in a technique's parameters.
-struct Stroke {
-    PictureLength width;
+/// Which side of the surface that it bounds a line lies on.
+enum class LineSide { both, inner, outer };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<LineSide> = {"both", "inner", "outer"};
+
+/// How lines of one source look.
+struct LineStyle {
+    double width = 0;           ///< pixels of the output
     Color color;
-    float opacity = 1;
+    bool operator==(const LineStyle&) const = default;
 };
 
-/// Adds the passes that draw lines along the sides of pixels in `sides` (an R8 image, see shaders/lib/stroke.glsl), over the layers
-/// before, and publishes `edges`. Half of the width lies on each side; the distance to the line is Euclidean, so that the width is the
-/// same in every direction and ends are round.
+/// Everything about how lines look, in the order of shaders/lib/lines.glsl.
+struct Stroke {
+    LineStyle silhouette, crease, object, material, section;
+    float opacity = 1;
+    LineSide side = LineSide::both;
+    double fade = 0, taper = 0;             ///< of opacity and width, lost with depth
+    double fadeFrom = 0, fadeTo = 1;        ///< normalized units: where they begin to, and have
+};
+
+/// Adds the passes that draw lines between the pixels that `sides` names (an R32UI image, see shaders/lib/lines.glsl), over the layers
+/// before, and publishes `edges`. Where exactly a line runs is computed from the triangles seen, where the geometry knows them. Widths are
+/// Euclidean, the same in every direction and at every number of samples; ends are round. Objects and materials may have colours of their own.
 void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke);
 
 }  // namespace limn

@@ -19,6 +19,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.needs = SceneData::positions;
     raster.note = "triangle ids only";
     graph.add(std::move(raster));
+    graph.publish(aov::visibility, visibility);
 
     Pass resolve;
     resolve.name = "resolve";

@@ -11,7 +11,8 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
         {&aov::depth, SceneData::none},      {&aov::normal, SceneData::normals},
         {&aov::normalGeometric, SceneData::none}, {&aov::position, SceneData::none},
         {&aov::albedo, SceneData::materials | textures}, {&aov::objectId, SceneData::none},
-        {&aov::materialId, SceneData::none},
+        {&aov::materialId, SceneData::materials},
+        {&aov::lineRecord, SceneData::materials},
     };
     std::vector<Write> writes;
     for (const auto& [aov, needs] : outputs) {

@@ -1,0 +1,64 @@
+// Where exactly the lines run that a technique has found between pixels.
+#include "frame/scene.glsl"
+#include "lib/space.glsl"
+#include "lib/normals.glsl"
+#include "lib/lines.glsl"
+#ifdef WITH_TRIANGLES
+#include "frame/spans.glsl"
+#endif
+
+struct Surface {
+    ivec2 pixel;
+    float depth;
+    vec3 position, face;    // view space; face: normal of the triangle
+};
+
+Surface surfaceAt(ivec2 pixel) {
+    float z = texelFetch(depth, pixel, 0).r;
+    return Surface(pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(texelFetch(normalGeometric, pixel, 0).xy));
+}
+
+// Where the planes of two surfaces meet, as seen on the way from a's pixel to b's; 0.5 where they do not, or do so elsewhere.
+float meetingPlace(Surface a, Surface b) {
+    // Of what is linear in the picture, 1/depth or depth, on each plane at both ends: the difference at a, and at b.
+    float atA, atB;
+    if (view.orthographic) {
+        vec2 way = b.position.xy - a.position.xy;
+        atA = b.depth - dot(b.face.xy, way) / b.face.z - a.depth;
+        atB = b.depth - a.depth - dot(a.face.xy, way) / a.face.z;
+    } else {
+        vec3 rayA = a.position / a.depth, rayB = b.position / b.depth;
+        atA = 1.0 / a.depth - dot(b.face, rayA) / dot(b.face, b.position);
+        atB = dot(a.face, rayB) / dot(a.face, a.position) - 1.0 / b.depth;
+    }
+    return atA * atB < 0.0 ? atA / (atA - atB) : 0.5;
+}
+
+uint crossingBetween(Surface a, Surface b, Side side) {
+    if (side.source == NO_SOURCE) return 0u;
+    bool bIsNearer = b.depth < a.depth;
+    float place = 0.5;
+    bool meets = !side.isEnd && dot(a.face, b.face) < 0.9999;
+    if (meets) place = meetingPlace(a, b);
+#ifdef WITH_TRIANGLES
+    ivec2 way = b.pixel - a.pixel;
+    float reach = reachOf(bIsNearer ? b.pixel : a.pixel, bIsNearer ? -way : way, side.isEnd);
+    if (!meets) place = bIsNearer ? 1.0 - reach : reach;
+#endif
+    uint record = 0u;
+#ifdef WITH_RECORDS
+    record = texelFetch(lineRecord, side.ownedByOther ? b.pixel : a.pixel, 0).r;
+#endif
+    float far = clamp((min(a.depth, b.depth) - params.fadeFrom) * params.fadeScale, 0.0, 1.0);
+    return encodeCrossing(Crossing(place, side.source, record, 1.0 - params.taper * far, 1.0 - params.fade * far, side.ownedByOther));
+}
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
+    uint found = texelFetch(sides, pixel, 0).r;
+    Surface here = surfaceAt(pixel);
+    uint right = crossingBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1)), decodeSide(found, 0));
+    uint above = crossingBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)), decodeSide(found, 1));
+    write_result(uvec4(right, above, 0u, 0u));
+}

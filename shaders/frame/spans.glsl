@@ -1,0 +1,64 @@
+// How far triangles reach between the centres of two pixels: where an outline runs, to a fraction of a pixel.
+//
+// Include after a sampler `visibility` is declared. Works on homogeneous screen coordinates counted from the first pixel's centre, which stay
+// exact for triangles of any size and for those that reach behind the eye.
+
+uvec2 seenAt(ivec2 pixel) { return texelFetch(visibility, clamp(pixel, ivec2(0), view.size - 1) * view.raster + view.placeOnRaster, 0).xy; }
+
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+// The part of the way from `pixel` to `pixel + way` that a triangle covers: from x to y, in ways; empty where x > y.
+vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
+    uint number = seen.x - 1u;
+    Instance instance = instanceAt(number);
+    ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + seen.y)).xyz);
+    vec2 centre = rayOf(pixel), along = vec2(way) * view.rayScale;
+    vec3 h[3];   // xy: from the pixel's centre, times z
+    for (int i = 0; i < 3; ++i) {
+        vec3 p = viewFromMesh(number, texelFetch(positions, corners[i]).xyz);
+        float w = view.orthographic ? 1.0 : -p.z;
+        h[i] = vec3(p.xy - centre * w, w);
+    }
+    // Edge functions, linear along the way: at + slope · t, all of one sign inside.
+    vec3 at, slope;
+    for (int i = 0; i < 3; ++i) {
+        vec3 a = h[(i + 1) % 3], b = h[(i + 2) % 3];
+        at[i] = cross2(a.xy, b.xy);
+        slope[i] = -(a.z * cross2(along, b.xy) + b.z * cross2(a.xy, along));
+    }
+    float side = at.x + at.y + at.z < 0.0 ? -1.0 : 1.0;
+    vec2 span = vec2(-1e9, 1e9);
+    for (int i = 0; i < 3; ++i) {
+        float start = side * at[i], change = side * slope[i];
+        if (change > 0.0) span.x = max(span.x, -start / change);
+        else if (change < 0.0) span.y = min(span.y, -start / change);
+        else if (start < 0.0) span.y = -1e9;
+    }
+    return span;
+}
+
+uint objectSeen(uvec2 seen) { return triangleObject(instanceAt(seen.x - 1u), seen.y); }
+
+// How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
+//
+// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre;
+// where it is, it is seen close by. Without `goOn` the triangle's own end counts.
+float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
+    uvec2 seen = seenAt(pixel);
+    vec2 last = spanOf(seen, pixel, way);
+    float reach = clamp(last.y, 0.0, 1.0);
+    if (!goOn) return reach;
+    ivec2 across = ivec2(way.y, way.x);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 near = pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across);
+        uvec2 other = seenAt(near);
+        bool isNext = reach < 1.0 && other.x != 0u && other != seen && other.x == seen.x;
+        if (!isNext || objectSeen(other) != objectSeen(seen)) continue;
+        vec2 span = spanOf(other, pixel, way);
+        // Neighbours share an edge, so that one begins where the other ends: but for rounding.
+        if (span.x <= reach + 0.01 && span.y > reach) last = span, reach = min(span.y, 1.0);
+    }
+    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way.
+    if (last.y - last.x < 0.75) reach = 0.5 * (reach + 1.0);
+    return reach;
+}

@@ -1,0 +1,61 @@
+// Where lines run: between the centres of neighbouring pixels, at a place known to a fraction of a pixel.
+//
+// Each pixel says of its way to the pixel at its right (x) and of the way to the one above it (y) whether a line crosses it, where, and what
+// line it is. Four pixels whose centres form a square make a cell; crossings on the sides of a cell are joined into pieces of line.
+
+// What a technique finds out first, per pixel: five bits for the way to the right, five for the way up.
+struct Side {
+    uint source;        // why there is a line; NO_SOURCE: there is none
+    bool ownedByOther;  // the line bounds the surface seen in the neighbour, not the one seen here
+    bool isEnd;         // what the line bounds ends there, in front of something else or of nothing
+};
+
+uint encodeSide(Side s) { return s.source == 0u ? 0u : s.source | (uint(s.ownedByOther) << 3) | (uint(s.isEnd) << 4); }
+uint encodeSides(Side right, Side above) { return encodeSide(right) | (encodeSide(above) << 5); }
+// 0: to the right, 1: up.
+Side decodeSide(uint sides, int direction) {
+    uint code = (direction == 0 ? sides : sides >> 5) & 31u;
+    return Side(code & 7u, (code & 8u) != 0u, (code & 16u) != 0u);
+}
+
+// One crossing, packed in 32 bits: place 8, source 3, record 8, thickness 6, strength 6, owner 1.
+struct Crossing {
+    float place;        // 0 at this pixel's centre, 1 at the neighbour's
+    uint source;        // why there is a line; NO_SOURCE: there is none
+    uint record;        // of the overrides that scenes give to objects and materials; 0: none
+    float thickness;    // factor on the width
+    float strength;     // factor on the opacity
+    bool ownedByOther;  // the line bounds the surface seen in the neighbour, not the one seen here
+};
+
+const uint NO_SOURCE = 0u, SILHOUETTE = 1u, CREASE = 2u, OBJECT = 3u, MATERIAL = 4u, SECTION = 5u;
+
+uint encodeCrossing(Crossing c) {
+    if (c.source == NO_SOURCE) return 0u;
+    return uint(clamp(c.place, 0.0, 1.0) * 255.0 + 0.5) | (c.source << 8) | (c.record << 11) | (uint(c.thickness * 63.0 + 0.5) << 19) | (uint(c.strength * 63.0 + 0.5) << 25) | (uint(c.ownedByOther) << 31);
+}
+
+uint sourceOf(uint code) { return (code >> 8) & 7u; }
+uint recordOf(uint code) { return (code >> 11) & 255u; }
+float placeOf(uint code) { return float(code & 255u) / 255.0; }
+float thicknessOf(uint code) { return float((code >> 19) & 63u) / 63.0; }
+float strengthOf(uint code) { return float((code >> 25) & 63u) / 63.0; }
+bool ownedByOther(uint code) { return (code >> 31) != 0u; }
+
+// A straight piece of line across a cell, in the cell's square of 1×1.
+struct Piece {
+    vec2 from, to;
+    uint code;          // of the crossing that it begins at
+    bool ownerIsLeft;   // what the line bounds lies at its left, seen along it
+};
+
+// x: its ends, 8 bits each; never 0, for the ends lie on different sides, or one in the middle. y: its crossing's code, the owner's bit made over.
+uvec2 encodePiece(Piece p) {
+    uvec4 ends = uvec4(clamp(vec4(p.from, p.to), 0.0, 1.0) * 255.0 + 0.5);
+    return uvec2(ends.x | (ends.y << 8) | (ends.z << 16) | (ends.w << 24), (p.code & 0x7fffffffu) | (uint(p.ownerIsLeft) << 31));
+}
+
+Piece decodePiece(uvec2 code) {
+    vec4 ends = vec4(uvec4(code.x, code.x >> 8, code.x >> 16, code.x >> 24) & 255u) / 255.0;
+    return Piece(ends.xy, ends.zw, code.y, ownedByOther(code.y));
+}
