@@ -310,6 +310,27 @@ const FieldType& fieldType<Color>() {
     return type;
 }
 template <>
+const FieldType& fieldType<std::vector<std::string>>() {
+    static constexpr FieldType type{"list of names", 0,
+                                    [](void* member, const Node& node, const Field&) -> Problem {
+                                        if (!node.isArray()) return expected("a list of names", node);
+                                        std::vector<std::string> names;
+                                        for (const auto& element : node.array()) {
+                                            if (!element.text()) return expected("a list of names", element);
+                                            names.push_back(*element.text());
+                                        }
+                                        *static_cast<std::vector<std::string>*>(member) = std::move(names);
+                                        return {};
+                                    },
+                                    [](const void* member) {
+                                        std::string text = "[";
+                                        for (const auto& name : *static_cast<const std::vector<std::string>*>(member)) text += fmt::format("{}\"{}\"", text.size() > 1 ? ", " : "", name);
+                                        return text + "]";
+                                    },
+                                    nullptr, nullptr, "", 0, 0, nullptr, {}};
+    return type;
+}
+template <>
 const FieldType& fieldType<OptionalColor>() {
     static constexpr FieldType type{"colour or \"same\"", 0,
                                     [](void* member, const Node& node, const Field& field) -> Problem {
@@ -528,6 +549,13 @@ UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema,
     block.glsl += fmt::format("}} {};\n", name);
     block.bytes.resize((block.bytes.size() + 15) / 16 * 16);
     return block;
+}
+
+void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words) {
+    const std::size_t elements = std::max<std::size_t>(1, (words.size() + 3) / 4), at = block.bytes.size();
+    block.glsl.insert(block.glsl.rfind('}'), fmt::format("    uvec4 {}[{}];\n", name, elements));
+    block.bytes.resize(at + elements * 16);
+    if (!words.empty()) std::memcpy(block.bytes.data() + at, words.data(), words.size_bytes());
 }
 
 }  // namespace limn

@@ -208,5 +208,7 @@ struct UniformBlock {
 };
 
 UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema, const void* object);
+/// Adds a list of numbers at the end of a block: `uvec4 NAME[]`, four to an element, so many elements as they take and at least one.
+void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words);
 
 }  // namespace limn

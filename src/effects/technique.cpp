@@ -56,6 +56,12 @@ std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
     return it->second;
 }
 
+const TechniqueChoice* EffectBuilder::chosen(std::string_view slot, std::string_view technique) const {
+    for (const auto* choice : choices_)
+        if (choice->technique->slot == slot && choice->technique->name == technique) return choice;
+    return nullptr;
+}
+
 ResourceId EffectBuilder::image(std::string name, Format format, int coarseness) { return graph_.add({std::move(name), format, (view_.region.size + coarseness - 1) / coarseness, false}); }
 
 ResourceId EffectBuilder::fineImage(std::string name, Format format) {

@@ -25,11 +25,15 @@ namespace limn {
 struct SceneFacts {
     SceneInfo info;
     std::span<const Light> lights;
+    std::span<const DrawInstance> instances;
+    std::span<const Material> materials;
     bool textured = false;         ///< some drawn material has a texture
     bool coloredLight = false;     ///< some light is not grey
     bool lineRecords = false;      ///< some object or material says something about its lines
     bool sections = false;         ///< something is cut open
 };
+
+struct TechniqueChoice;
 
 /// What an effect builds its passes with.
 class EffectBuilder {
@@ -55,6 +59,11 @@ public:
     /// Adds a pass; slot, technique and (unless given) shader are filled in.
     void add(Pass pass);
 
+    /// What a config says of techniques: for those that stand in two slots at once.
+    void setChoices(std::vector<const TechniqueChoice*> choices) { choices_ = std::move(choices); }
+    /// The choice of a technique in a slot, if it is there.
+    const TechniqueChoice* chosen(std::string_view slot, std::string_view technique) const;
+
     /// The shadow maps of all lights that cast one, as one image; nullopt when none does.
     std::optional<ResourceId> shadowMaps();
 
@@ -69,6 +78,7 @@ private:
     const SceneFacts& scene_;
     std::map<std::string_view, ResourceId> published_;
     std::optional<ResourceId> shadowMaps_;
+    std::vector<const TechniqueChoice*> choices_;
     std::string slot_, technique_;
     int layer_ = 0;
     bool usesFineRaster_ = false;

@@ -34,6 +34,7 @@ inline constexpr Aov albedo{"albedo", Format::rgba16f, {"R", "G", "B", "A"}, tru
 inline constexpr Aov ambientOcclusion{"ambient_occlusion", Format::r32f, {"Y"}, false, true, "Filtered ambient visibility: 1 open, 0 closed, background 1."};
 inline constexpr Aov ambientOcclusionRaw{"ambient_occlusion_raw", Format::r32f, {"Y"}, false, true, "Ambient visibility before its filter, noise and all."};
 inline constexpr Aov ambientOcclusionError{"ambient_occlusion_error", Format::r32f, {"Y"}, false, true, "Standard error of one sample's ambient_occlusion_raw, as the ray tracer estimates it."};
+inline constexpr Aov depthTangent{"depth_tangent", Format::r32f, {"Y"}, false, true, "Ambient shading and lines in one, from depth alone: what the picture is multiplied by."};
 inline constexpr Aov edges{"edges", Format::rgba16f, {"R", "G", "B", "A"}, true, true, "The lines alone. Linear Rec.709, premultiplied alpha."};
 inline constexpr Aov normal{"normal", Format::rg32f, {"X", "Y", "Z"}, false, false, "Shading normal in view space (x right, y up, z towards the viewer); zero on the background.", true};
 inline constexpr Aov normalGeometric{"normal_geometric", Format::rg32f, {"X", "Y", "Z"}, false, false, "Normal of the triangle in view space, towards the viewer; zero on the background.", true};
@@ -46,7 +47,7 @@ inline constexpr Aov materialId{"material_id", Format::r32ui, {"id"}, false, fal
 inline constexpr Aov lineRecord{"line_record", Format::r32ui, {"id"}, false, false, "Number of what the object or its material says about its lines; 0 for nothing."};
 inline constexpr Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, false, false, "Instance, counted from 1, and triangle; on the fine raster. Only of the exact geometry."};
 
-inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &ambientOcclusionError, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
+inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &ambientOcclusionError, &depthTangent, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
 
 }  // namespace aov
 

@@ -9,6 +9,9 @@
 #include "image/image.h"
 #include "scene/scene.h"
 
+#include <span>
+#include <string_view>
+
 namespace limn {
 
 /// One mesh, placed.
@@ -17,6 +20,8 @@ struct DrawInstance {
     glm::dmat4 worldFromMesh{1};
     std::vector<std::uint32_t> materials;   ///< of each of the mesh's material names: index into DrawScene::materials
     std::uint32_t firstObject = 1;          ///< object_id of the mesh's first part
+    std::string_view name;                  ///< of the instance in the scene; as long as that lives, like:
+    std::span<const std::string> parts;     ///< names of the mesh's parts
     std::vector<std::uint32_t> lineRecords; ///< beside materials: index into DrawScene::lineRecords
 };
 

@@ -180,7 +180,7 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
         const Instance instance = keyed.at(frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = loaded.meshes[mesh].poly;
-        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, {}};
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
         for (const auto material : placed.materials) placed.lineRecords.push_back(lineRecord(draw, instance, materials.materials[material]));
         nextObject += static_cast<std::uint32_t>(poly.partNames.size());
@@ -213,7 +213,7 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
 }
 
 SceneFacts sceneFacts(const DrawScene& scene) {
-    SceneFacts facts{scene.info, scene.lights};
+    SceneFacts facts{scene.info, scene.lights, scene.instances, scene.materials};
     facts.lineRecords = scene.lineRecords.size() > 1;
     for (const auto& instance : scene.instances)
         for (const auto material : instance.materials) facts.textured = facts.textured || !scene.materials[material].texture.empty();

@@ -51,9 +51,15 @@ std::vector<const Aov*> chooseAovs(std::span<const Aov* const> aovs, bool averag
 FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame) {
     FramePlan result;
     EffectBuilder builder(result.graph, view, facts);
+    std::vector<const TechniqueChoice*> choices{&config.geometry, &config.shading, &config.composite};
+    if (config.ao) choices.push_back(&*config.ao);
+    for (const auto& layer : config.edges) choices.push_back(&layer);
+    builder.setChoices(std::move(choices));
     build(builder, config.geometry, frame);
     if (config.ao) build(builder, *config.ao, frame);
     else result.graph.absent.emplace_back("ao");
+    if (config.ao && !config.aoFilters.empty() && !builder.find(aov::ambientOcclusion))
+        throw Error(ExitCode::usage, {config.file.string()}, "the filter of [ao] has nothing to filter: ambient occlusion and lines are one image", "leave the filter out, or use another technique in one of both sections");
     for (const auto& filter : config.aoFilters) build(builder, filter, frame);
     if (config.ao && config.aoFilters.empty()) result.graph.absent.emplace_back("filter");
     build(builder, config.shading, frame);
@@ -68,7 +74,7 @@ FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const V
     const bool sums = view.split.samples() > 1;
     for (const Aov* aov : aovs) {
         if (!builder.find(*aov))
-            throw Error(ExitCode::usage, {config.file.string()}, fmt::format("the AOV '{}' is asked for, but at frame {} nothing makes it", aov->name, frame), aov == &aov::ambientOcclusionError ? "only ao = \"ray_traced\" knows its error" : "raise the opacity of a line layer, or leave the AOV out");
+            throw Error(ExitCode::usage, {config.file.string()}, fmt::format("the AOV '{}' is asked for, but at frame {} nothing makes it", aov->name, frame), aov == &aov::ambientOcclusionError ? "only ao = \"ray_traced\" knows its error" : aov == &aov::depthTangent ? "only depth_tangent makes it" : builder.find(aov::depthTangent) ? "ask for depth_tangent: ambient occlusion and lines are one image" : "raise the opacity of a line layer, or leave the AOV out");
         const ResourceId image = sums && aov->isAveraged ? accumulate(result.graph, builder, *aov, view) : builder.read(*aov);
         result.wanted.push_back({std::string(aov->name), image, view.keptGuard});
         result.aovs.push_back(aov);

@@ -1,4 +1,4 @@
-// Ambient shading from how the depth image bends (paper 002).
+// Ambient shading, or lines, or both, from how the depth image bends (paper 002).
 #include "lib/space.glsl"
 #include "lib/depth_tangent.glsl"
 
@@ -37,10 +37,12 @@ void main() {
     }
 #else
     float here = depthAt(pixel);
+#ifndef ABSENCE_IS_FAR
     if (isBackground(here)) {
         write_result(vec4(1));
         return;
     }
+#endif
     // Each ring is turned against the last by 52 degrees, which brings no two of them into line.
     vec2 turned = NEIGHBOURS[0];
     for (int ring = RINGS; ring > 0; --ring) {
@@ -50,12 +52,30 @@ void main() {
             ivec2 offset = ivec2(round(turned * reach));
             turned = vec2(-turned.y, turned.x);
             float one = depthAt(pixel + offset), other = depthAt(pixel - offset);
-            // A neighbour's absence tells nothing about how the surface bends.
-            float p = isBackground(one) || isBackground(other) || offset == ivec2(0) ? 0.0 : (here - betweenOpposite(one, other)) * params.perRange;
+            bool someAbsent = isBackground(one) || isBackground(other) || isBackground(here);
+            float p = someAbsent || offset == ivec2(0) ? 0.0 : (here - betweenOpposite(one, other)) * params.perRange;
+#ifdef ABSENCE_IS_FAR
+            // A surface that ends before nothing is a line; nothing beside nothing is none.
+            bool allAbsent = isBackground(one) && isBackground(other) && isBackground(here);
+            if (someAbsent) p = allAbsent ? 0.0 : 1.0 / params.perBleach;
+#endif
+            // For ambient shading a neighbour's absence tells nothing about how the surface bends.
+#ifdef ALL_BENDS
+            p = abs(p);
+#endif
             sum += openAt(max(p, 0.0), params.perBleach, params.brightness) / float(2 * RINGS);
         }
         turned = mat2(0.6157, 0.7880, -0.7880, 0.6157) * turned;
     }
 #endif
-    write_result(vec4(pow(clamp(sum, 0.0, 1.0), params.contrast)));
+    float open = pow(clamp(sum, 0.0, 1.0), params.contrast);
+#ifdef AS_LINES
+    vec4 color = params.color * (1.0 - open);
+#ifdef LAYERS_BELOW
+    color += texelFetch(layersBelow, pixel, 0) * (1.0 - color.a);
+#endif
+    write_result(color);
+#else
+    write_result(vec4(open));
+#endif
 }

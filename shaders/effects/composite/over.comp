@@ -9,5 +9,11 @@ void main() {
     vec4 line = texelFetch(edges, pixel, 0);
     color = line + color * (1.0 - line.a);
 #endif
-    write_result(color + params.background * (1.0 - color.a));
+    color += params.background * (1.0 - color.a);
+#ifdef WITH_FACTOR
+    // Where the background is left out, what darkens it stays.
+    float factor_ = texelFetch(factor, pixel, 0).r;
+    color = vec4(color.rgb * factor_, mix(1.0, color.a, factor_));
+#endif
+    write_result(color);
 }

@@ -3,6 +3,7 @@
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"
+#include "lib/steps.glsl"
 
 // What is compared of a pixel.
 struct Surface {
@@ -62,14 +63,7 @@ bool isStep(Surface a, Surface b) {
 #ifdef PROJECTED_DEPTH
     return abs(projected(b.depth) - projected(a.depth)) > params.depthThreshold * (1.0 - projected(a.depth));
 #else
-    // Heights of either over the other's plane. Where a surface bends, even strongly, both lie below the other's plane, or both above; where one
-    // ends in front of the other, the nearer lies above and the farther below.
-    vec3 between = b.position - a.position;
-    float ofB = dot(between, a.face), ofA = -dot(between, b.face);
-    float footprint = pixelFootprint(min(a.depth, b.depth));
-    // A fiftieth of a pixel is some hundred times the rounding of depths.
-    bool apart = ofA * ofB < 0.0 && min(abs(ofA), abs(ofB)) > 0.02 * footprint;
-    return apart && max(abs(ofA), abs(ofB)) > params.step * footprint;
+    return isStepBetween(a.position, a.face, b.position, b.face, pixelFootprint(min(a.depth, b.depth)), params.step);
 #endif
 }
 

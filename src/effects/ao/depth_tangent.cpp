@@ -1,7 +1,8 @@
 // Ambient shading from depth alone, by how a surface bends between a pixel and its neighbours: the post-processing shader for edges and
 // ambient shading of paper 002 (depth tangents).
 //
-// Reads depth, nothing else; writes ambient_occlusion_raw. Per neighbour p = Δdepth/range, b = p·(2 − p/bleach), s = ½·max(b + brightness, 0),
+// Reads depth, nothing else; writes ambient_occlusion_raw, or edges, or where it stands in both slots one image, depth_tangent, which cannot be
+// split and multiplies the picture. Per neighbour p = Δdepth/range, b = p·(2 − p/bleach), s = ½·max(b + brightness, 0),
 // o = mean of 1/(1 + s²), result o^contrast: b grows to `bleach` at p = bleach and falls again beyond, which is the check of range.
 //
 // Paper mode: each of four neighbours by itself; a plane seen at a slant darkens, and flat regions are grey by `brightness`.
@@ -12,6 +13,9 @@
 
 #include "effects/ao/occlusion.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace limn {
@@ -30,6 +34,9 @@ inline constexpr std::array<std::string_view, 2> enumNames<TangentDepth> = {"lin
 enum class TangentRange { scene, far };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<TangentRange> = {"scene", "far"};
+enum class TangentBends { concave, all };
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<TangentBends> = {"concave", "all"};
 
 namespace ao_depth_tangent {
 
@@ -46,6 +53,17 @@ struct Params {
     int rings = 4;
     TangentKind tangent = TangentKind::raw;
     TangentDepth depth = TangentDepth::linear;
+    TangentBends bends = TangentBends::concave;
+    bool cut = true;
+};
+
+struct LineParams : Params {
+    Color color{0, 0, 0};
+    float opacity = 1;
+    LineParams() {
+        reach = PictureLength::pixels(1), range = Length::percent(0.2);
+        contrast = 26, bleach = 1, rings = 1, bends = TangentBends::all, cut = false;
+    }
 };
 
 constexpr Field kParams[] = {
@@ -61,13 +79,27 @@ constexpr Field kParams[] = {
     field<&Params::rings>("rings", {.min = 1, .max = 16, .accuracy = true, .keyable = false, .doc = "How many distances up to the reach, each with neighbours between those of the last; the paper's one leaves ghosts of every edge (opposite pairs only)."}),
     field<&Params::tangent>("tangent", {.doc = "The difference itself as in the listing, or the third component of the unit tangent as in the text (single pairs only)."}),
     field<&Params::depth>("depth", {.doc = "Distances, or their squares as the paper packs them (single pairs only)."}),
+    field<&Params::bends>("bends", {.doc = "What darkens: concave places alone, or convex ones too (opposite pairs only)."}),
+    field<&Params::cut>("cut", {.doc = "Differences beyond the bleach lose their effect again, the paper's check of range; false: they keep the most."}),
 };
+
+constexpr Field kLineFields[] = {
+    field<&LineParams::color>("color", {.doc = "Colour of the lines."}),
+    field<&LineParams::opacity>("opacity", {.min = 0, .max = 1, .doc = "How much the lines cover; at 0 they are not even computed."}),
+};
+constexpr auto kLineParams = [] {
+    std::array<Field, std::size(kParams) + std::size(kLineFields)> all{};
+    std::copy(std::begin(kParams), std::end(kParams), all.begin());
+    std::copy(std::begin(kLineFields), std::end(kLineFields), all.begin() + std::size(kParams));
+    return all;
+}();
 
 struct Constants {
     float reach = 1;
     float perRange = 1, contrast = 1, perBleach = 1, brightness = 0;
     glm::vec2 step{0};
     float far = 1;
+    glm::vec4 color{0};
 };
 constexpr Field kConstants[] = {
     field<&Constants::reach>("reach", {.unit = "pixels", .doc = "Of the farthest neighbours."}),
@@ -77,6 +109,11 @@ constexpr Field kConstants[] = {
     field<&Constants::brightness>("brightness", {.doc = "Added to every difference."}),
     field<&Constants::step>("step", {.unit = "picture sizes", .doc = "The neighbours' offset as the normalized tangent sees it."}),
     field<&Constants::far>("far", {.unit = "normalized units", .doc = "Distance that stands for the background."}),
+    field<&Constants::color>("color", {.doc = "Of lines: linear, premultiplied by the opacity."}),
+};
+
+struct LineConstants {
+    glm::vec4 color{0};
 };
 
 Constants derive(const Params& params, const View& view) {
@@ -91,24 +128,58 @@ Constants derive(const Params& params, const View& view) {
     return c;
 }
 
-void build(EffectBuilder& graph, const Params& params) {
-    const ResourceId result = graph.image(aov::ambientOcclusionRaw);
-    const Constants constants = derive(params, graph.view());
+/// The pass, whatever its result is called.
+ResourceId addPass(EffectBuilder& graph, const Params& params, const std::string& resultName, bool tellsAbsence, std::vector<std::pair<std::string, std::string>> defines = {}, const LineConstants* line = nullptr) {
+    const ResourceId result = graph.image(resultName, line ? aov::edges.format : Format::r32f);
+    Constants constants = derive(params, graph.view());
+    if (line) constants.color = line->color;
     Pass pass;
-    pass.name = "depth_tangent";
+    pass.name = "depth_tangent" + graph.layerSuffix();
+    pass.shader = "effects/ao/depth_tangent";
     pass.reads = {{"depth", graph.read(aov::depth), static_cast<int>(std::ceil(constants.reach))}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, constants);
+    pass.defines = std::move(defines);
     const auto define = [&](bool on, const char* name) { if (on) pass.defines.emplace_back(name, ""); };
     define(params.pairs == TangentPairs::single, "SINGLE");
     define(params.neighbours == TangentNeighbours::axial, "AXIAL");
     define(params.tangent == TangentKind::normalized, "NORMALIZED_TANGENT");
     define(params.depth == TangentDepth::squared, "SQUARED_DEPTH");
+    define(params.bends == TangentBends::all, "ALL_BENDS");
+    define(params.cut, "CUT");
+    define(tellsAbsence, "ABSENCE_IS_FAR");
     pass.defines.emplace_back("RINGS", std::to_string(params.rings));
     pass.note = params.pairs == TangentPairs::single ? "4 neighbours per pixel" : std::to_string(4 * params.rings) + " neighbours per pixel";
+    if (line)
+        if (const auto below = graph.find(aov::edges)) {
+            pass.reads.push_back({"layersBelow", *below});
+            pass.defines.emplace_back("LAYERS_BELOW", "");
+        }
     graph.add(std::move(pass));
+    return result;
+}
+
+void build(EffectBuilder& graph, const Params& params) {
+    if (const auto* lines = graph.chosen("edges", "depth_tangent")) {
+        // One image that is both. What the lines' section says of it would have to agree.
+        const LineParams defaults;
+        for (const auto& f : kLineParams)
+            if (f.type().text(f.member_(lines->params.get())) != f.type().text(f.member_(&defaults)))
+                throw Error(ExitCode::usage, {}, fmt::format("depth_tangent stands in [ao] and in [[edges]], as one image, but [[edges]] sets '{}' for itself", f.name), "leave its settings to [ao]");
+        Params both = params;
+        both.bends = TangentBends::all;
+        graph.publish(aov::depthTangent, addPass(graph, both, "depth_tangent", true));
+        return;
+    }
+    const ResourceId result = addPass(graph, params, "ambient_occlusion_raw", false);
     graph.publish(aov::ambientOcclusionRaw, result);
     graph.publish(aov::ambientOcclusion, result);
+}
+
+void buildLines(EffectBuilder& graph, const LineParams& params) {
+    if (graph.chosen("ao", "depth_tangent") || params.opacity <= 0) return;
+    const LineConstants line{glm::vec4(params.color.r, params.color.g, params.color.b, 1) * params.opacity};
+    graph.publish(aov::edges, addPass(graph, params, "edges" + graph.layerSuffix(), true, {{"AS_LINES", ""}}, &line));
 }
 
 const Technique kDepthTangent{"ao", "depth_tangent", "How surfaces bend between a pixel and its neighbours, from depth alone (paper 002).", kParams, build,
@@ -116,8 +187,16 @@ const Technique kDepthTangent{"ao", "depth_tangent", "How surfaces bend between 
                                 "reach = '7px', range_in = 'far', far_share = 0.8, contrast = 64, bleach = 0.05, brightness = 0.1, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
                                {"paper_edges", "As published, for edges: contrast 26, r 1, bleach 1, brightness 0.",
                                 "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
+                               {"paper_both", "The real-time settings for both at once: r 1.5 and a low brightness.",
+                                "reach = '1.5px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.3, brightness = 0.2, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
                                {"paper_real_time", "The real-time settings for ambient shading: r 5, bleach 0.3, brightness 1, contrast 30 read as an exponent of 3.",
                                 "reach = '5px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.3, brightness = 1, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"}}};
+
+const Technique kDepthTangentLines{"edges", "depth_tangent", "Lines where the depth image bends, from depth alone (paper 002); with ao = \"depth_tangent\" both in one pass.", kLineParams, buildLines,
+                                   {{"paper", "As published, for edges: contrast 26, r 1, bleach 1, brightness 0.",
+                                     "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw', bends = 'concave', cut = true"},
+                                    {"paper_real_time", "The real-time settings for edges: r 1, bleach 0.2, brightness 0.5, contrast 30 read as an exponent of 3.",
+                                     "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 3, bleach = 0.2, brightness = 0.5, pairs = 'single', rings = 1, neighbours = 'diagonal', tangent = 'raw', bends = 'concave', cut = true"}}};
 
 }  // namespace ao_depth_tangent
 }  // namespace limn

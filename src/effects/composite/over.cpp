@@ -31,6 +31,10 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.reads.push_back({"edges", *edges});
         pass.defines.emplace_back("WITH_EDGES", "");
     }
+    if (const auto factor = graph.find(aov::depthTangent)) {
+        pass.reads.push_back({"factor", *factor});
+        pass.defines.emplace_back("WITH_FACTOR", "");
+    }
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, Constants{params.transparent ? glm::vec4(0) : glm::vec4(params.background.r, params.background.g, params.background.b, 1)});
     graph.add(std::move(pass));

@@ -1,0 +1,54 @@
+// Outlines of chosen objects: where a mask of them changes between neighbouring pixels, which is where its Laplacian is not 0 (paper 002).
+#include "lib/space.glsl"
+#include "lib/normals.glsl"
+#include "lib/lines.glsl"
+#include "lib/steps.glsl"
+
+struct Surface {
+    float depth;
+    vec3 position, face;
+    uint label;     // what outlines run between: 0 or 1 where objects are chosen, else the object's number
+};
+
+#ifdef CHOSEN
+bool isIn(uint number, uint firstWord) {
+    uint word = firstWord + number / 32u;
+    return ((params.chosen[word / 4u][word % 4u] >> (number % 32u)) & 1u) != 0u;
+}
+#endif
+
+Surface surfaceAt(ivec2 pixel) {
+    Surface s;
+    s.depth = texelFetch(depth, pixel, 0).r;
+    s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
+    s.face = decodeNormal(texelFetch(normalGeometric, pixel, 0).xy);
+    s.label = texelFetch(objectId, pixel, 0).r;
+#ifdef CHOSEN
+    bool chosen = isIn(s.label, 0u);
+#ifdef CHOSEN_MATERIALS
+    chosen = chosen || isIn(texelFetch(materialId, pixel, 0).r, uint(params.firstMaterialWord));
+#endif
+    s.label = uint(chosen);
+#endif
+    return s;
+}
+
+Side sideBetween(Surface a, Surface b) {
+    bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth);
+    bool ends = emptyA != emptyB || isStepBetween(a.position, a.face, b.position, b.face, pixelFootprint(min(a.depth, b.depth)), 0.05);
+    // A line belongs to what is chosen; among all objects to the nearer.
+#ifdef CHOSEN
+    bool ownedByB = b.label == 1u;
+#else
+    bool ownedByB = b.depth < a.depth;
+#endif
+    return Side(a.label != b.label ? OBJECT : NO_SOURCE, ownedByB, ends);
+}
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (!insideRegion(pixel)) return;
+    Surface here = surfaceAt(pixel);
+    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))), above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
+    write_result(uvec4(encodeSides(right, above), 0u, 0u, 0u));
+}
