@@ -10,7 +10,7 @@ layout(binding = 10) uniform samplerBuffer uvs;
 layout(binding = 11) uniform usamplerBuffer triangleUvs;     // per triangle: its three uvs
 layout(binding = 12) uniform usamplerBuffer words;      // numbers of materials and parts; see Instance
 layout(binding = 13) uniform usamplerBuffer instances;  // eleven texels per instance; see below
-layout(binding = 14) uniform samplerBuffer materials;   // three texels per material
+layout(binding = 14) uniform samplerBuffer materials;   // five texels per material
 
 const int INSTANCE_TEXELS = 11;
 const uint NO_WORDS = 0xffffffffu;
@@ -97,10 +97,21 @@ struct Material {
     float specular;     // strength of the highlight
     int layer;          // of the atlas
     ivec4 place;        // xy: level 0 in the atlas; zw: its size, in texels
+    vec2 hatch;         // across hatching lines, 1 over their distance in pixels long; 0: none
+    float hatchWidth;   // pixels
+    vec3 hatchColor;
 };
 
 Material materialAt(uint number) {
-    int at = int(number) * 3;
-    vec4 a = texelFetch(materials, at), b = texelFetch(materials, at + 1), c = texelFetch(materials, at + 2);
-    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), ivec4(c));
+    int at = int(number) * 5;
+    vec4 a = texelFetch(materials, at), b = texelFetch(materials, at + 1), c = texelFetch(materials, at + 2), d = texelFetch(materials, at + 3), e = texelFetch(materials, at + 4);
+    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), ivec4(c), d.xy, d.z, e.rgb);
+}
+
+// The material's colour under its hatching, at a place in the picture (pixels): lines as if drawn, a pixel covered as far as it is.
+vec3 hatched(Material look, vec2 place) {
+    float spacings = dot(look.hatch, place), perPixel = length(look.hatch);
+    float distance = abs(fract(spacings) - 0.5) / max(perPixel, 1e-9);
+    float coverage = perPixel > 0.0 ? clamp(0.5 * look.hatchWidth - distance + 0.5, 0.0, min(1.0, look.hatchWidth)) : 0.0;
+    return mix(look.color, look.hatchColor, coverage);
 }

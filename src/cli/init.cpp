@@ -24,7 +24,7 @@ std::string tomlText(const std::string& text) {
 ExitCode run(const std::string& model, const std::string& folderText) {
     const std::filesystem::path folder = folderText;
     const LoadedScene loaded = loadScene(model);
-    const DrawScene scene = resolveFrame(loaded, "", 1, {1280, 720});
+    const DrawScene scene = resolveFrame(loaded, {});
     const std::string name = std::filesystem::path(model).stem().string();
     const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
     for (const auto& path : {scenePath, configPath})

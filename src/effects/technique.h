@@ -31,6 +31,7 @@ struct SceneFacts {
     bool coloredLight = false;     ///< some light is not grey
     bool lineRecords = false;      ///< some object or material says something about its lines
     bool sections = false;         ///< something is cut open
+    bool hatched = false;          ///< and its cut faces are hatched
 };
 
 struct TechniqueChoice;

@@ -29,13 +29,15 @@ struct GpuInstance {
 };
 static_assert(sizeof(GpuInstance) == 11 * 16);
 
-// Three texels.
+// Five texels.
 struct GpuMaterial {
     float color[3], levels;
     float shininess, specular, layer, padding;
     float place[4];
+    float hatchX, hatchY, hatchWidth, padding2;
+    float hatchColor[4];
 };
-static_assert(sizeof(GpuMaterial) == 3 * 16);
+static_assert(sizeof(GpuMaterial) == 5 * 16);
 
 // std140, as in shaders/frame/lights.glsl.
 struct GpuLight {
@@ -287,7 +289,10 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
             const auto& entry = atlasEntries_[i];
             const auto number = [](int value) { return static_cast<float>(value); };
             gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b}, number(entry.levels), m.shininess, m.specular, number(entry.place.z), 0,
-                                    {number(entry.place.x), number(entry.place.y), number(entry.size.x), number(entry.size.y)}});
+                                    {number(entry.place.x), number(entry.place.y), number(entry.size.x), number(entry.size.y)},
+                                    0, 0, static_cast<float>(m.hatch.width), 0, {m.hatch.color.r, m.hatch.color.g, m.hatch.color.b, 0}});
+            // Across the lines, one per distance between them.
+            if (m.hatch.spacing > 0) gpuMaterials.back().hatchX = static_cast<float>(-std::sin(glm::radians(m.hatch.angle)) / m.hatch.spacing), gpuMaterials.back().hatchY = static_cast<float>(std::cos(glm::radians(m.hatch.angle)) / m.hatch.spacing);
         }
         materials_ = gl::Buffer(bytesOf(gpuMaterials), "materials");
         materialsView_ = gl::BufferView(materials_, gl::Element::float4, "materials");

@@ -25,12 +25,19 @@ struct DrawInstance {
     std::vector<std::uint32_t> lineRecords; ///< beside materials: index into DrawScene::lineRecords
 };
 
+/// A plane that cuts the scene open. Beyond it, on its normal's side, nothing is drawn.
+struct SectionPlane {
+    glm::dvec3 point{0}, normal{0, 0, 1};
+    bool operator==(const SectionPlane&) const = default;
+};
+
 /// The scene at one frame, with everything resolved.
 struct DrawScene {
     std::vector<DrawInstance> instances;
     std::vector<Material> materials;
     std::vector<LineOverride> lineRecords{LineOverride()};   ///< the first says nothing
     std::vector<Light> lights;
+    std::vector<SectionPlane> sections;     ///< cut faces have as material the instance's mesh's materials, then one per section
     Camera camera;
     SceneInfo info;
 };

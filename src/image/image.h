@@ -43,6 +43,7 @@ struct EncodeOptions {
     int bits = 8;             ///< 8 or 16: PNG and TIFF
     int compression = 1;      ///< zlib level of PNG: 1 fast … 9 small
     int quality = 92;         ///< JPEG
+    double dpi = 0;           ///< pixels per inch, for printing; 0: not said
 };
 
 /// The bytes of a file. One layer, except for EXR. Same layers, same bytes: no dates, no times. Throws Error.

@@ -29,6 +29,11 @@ std::vector<std::byte> encode(const char* format, const Layer& layer, const Meta
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (std::string_view(format) == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
     else spec.attribute("Compression", "zip");
+    if (options.dpi > 0) {
+        spec.attribute("ResolutionUnit", "in");
+        spec.attribute("XResolution", static_cast<float>(options.dpi));
+        spec.attribute("YResolution", static_cast<float>(options.dpi));
+    }
     std::string description;
     for (const auto& [key, value] : metadata) {
         description += fmt::format("{}: {}\n", key, value);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -27,6 +28,11 @@ std::vector<std::byte> encodePng(const Layer& layer, const Metadata& metadata, c
     check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, options.compression <= 2 ? SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP : SPNG_FILTER_CHOICE_ALL));
     check(spng_set_ihdr(context.get(), &header));
     if (layer.isColour) check(spng_set_srgb(context.get(), 0));
+    if (options.dpi > 0) {
+        const auto perMetre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
+        spng_phys phys{perMetre, perMetre, 1};
+        check(spng_set_phys(context.get(), &phys));
+    }
     std::vector<spng_text> texts;
     for (const auto& [key, value] : metadata) {
         spng_text text{};

@@ -9,17 +9,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace limn {
 namespace {
 
 struct Header {
     std::string scene, camera, frames;
+    std::vector<std::string> sections;
     Accuracy accuracy = Accuracy::exact;
 };
 constexpr Field kHeader[] = {
     field<&Header::scene>("scene", {.required = true, .doc = "Scene file or OBJ, relative to this file."}),
     field<&Header::camera>("camera", {.doc = "Name of the camera; the scene's first if left out."}),
+    field<&Header::sections>("sections", {.doc = "Names of the scene's sections to cut it open by; those without a name always do."}),
     field<&Header::accuracy>("accuracy", {.doc = "\"exact\": analytic evaluation per pixel; \"fast\": the hardware's interpolation."}),
     field<&Header::frames>("frames", {.doc = "Range of frames to draw, such as \"1-24\"; narrows the scene's."}),
 };
@@ -30,6 +33,46 @@ constexpr Field kImage[] = {
     field<&ImageSettings::guard>("guard", {.unit = "longer sides", .min = 0, .max = 1, .accuracy = true, .keyable = false, .doc = "How wide a band around the picture may be drawn for effects that look around themselves; made only as wide as they need."}),
     field<&ImageSettings::dpi>("dpi", {.unit = "pixels per inch", .min = 1, .max = 100000, .doc = "Gives millimetres a meaning."}),
 };
+
+enum class Orientation { portrait, landscape };
+
+struct Sheet {
+    std::string size, scale;
+    Orientation orientation = Orientation::portrait;
+};
+
+}  // namespace
+
+template <>
+inline constexpr std::array<std::string_view, 2> enumNames<Orientation> = {"portrait", "landscape"};
+
+namespace {
+
+constexpr Field kSheet[] = {
+    field<&Sheet::size>("size", {.required = true, .doc = "\"A0\" to \"A6\", or width and height in millimetres: \"600x400\". With image.dpi it gives the picture's size."}),
+    field<&Sheet::orientation>("orientation", {.doc = "portrait: the sheet's short side below; landscape: its long side."}),
+    field<&Sheet::scale>("scale", {.doc = "\"1:50\": a metre of the scene is 20 mm on paper. Needs an orthographic camera; without it the camera says what the sheet shows."}),
+};
+
+/// Millimetres, the short side first; nullopt for a name that is none.
+std::optional<glm::dvec2> paperSize(const std::string& name) {
+    constexpr double series[][2] = {{841, 1189}, {594, 841}, {420, 594}, {297, 420}, {210, 297}, {148, 210}, {105, 148}};
+    if (name.size() == 2 && (name[0] == 'A' || name[0] == 'a') && name[1] >= '0' && name[1] <= '6') return glm::dvec2(series[name[1] - '0'][0], series[name[1] - '0'][1]);
+    const auto cross = name.find('x');
+    if (cross == std::string::npos) return std::nullopt;
+    const auto width = parseNumber(name.substr(0, cross)), height = parseNumber(name.substr(cross + 1));
+    if (!width || !height || !(*width > 0 && *height > 0 && *width <= 10000 && *height <= 10000)) return std::nullopt;
+    return glm::dvec2(*width, *height);
+}
+
+/// "1:50" → 0.02.
+std::optional<double> parseScale(const std::string& text) {
+    const auto colon = text.find(':');
+    if (colon == std::string::npos) return std::nullopt;
+    const auto paper = parseNumber(text.substr(0, colon)), world = parseNumber(text.substr(colon + 1));
+    if (!paper || !world || !(*paper > 0 && *world > 0 && std::isfinite(*paper / *world))) return std::nullopt;
+    return *paper / *world;
+}
 
 constexpr Field kOutput[] = {
     field<&EncodeOptions::bits>("bits", {.min = 8, .max = 16, .doc = "Bits per channel of PNG and TIFF: 8 or 16."}),
@@ -46,19 +89,21 @@ public:
     }
 
     RenderConfig read() {
-        static constexpr std::string_view sections[] = {"image", "shading", "ao", "edges", "output"};
+        static constexpr std::string_view sections[] = {"image", "sheet", "shading", "ao", "edges", "output"};
         Header header;
         readFields(document_, kHeader, &header, nullptr, "the config", errors_, sections);
         config_.accuracy = header.accuracy;
         config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
         config_.subdivide = overrides_.subdivide;
+        config_.sections = header.sections;
         if (!header.scene.empty()) {
             config_.scene = pathIn(*document_.find("scene"));
             if (!fileExists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the file that names them", ExitCode::missingInput);
         }
         if (!header.frames.empty() && !(config_.frames = parseFrameRange(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
         readImage();
+        readSheet();
         readEffects();
         readOutput();
         errors_.throwIfAny();
@@ -83,6 +128,27 @@ private:
             if (background->text() && *background->text() == "transparent") config_.image.transparent = true;
             else if (auto problem = fieldType<Color>().read(&config_.image.background, *background, kImage[0])) fail(*background, "'background' in [image] " + *problem, "or \"transparent\"");
         }
+    }
+
+    void readSheet() {
+        const Node* node = document_.find("sheet");
+        if (!node) return;
+        Sheet sheet;
+        readFields(*node, kSheet, &sheet, nullptr, "[sheet]", errors_);
+        if (const Node* image = document_.find("image"); image && image->find("size")) fail(*image->find("size"), "'size' in [image] stands beside [sheet]", "the sheet's size and image.dpi give the picture's: remove one of the two");
+        if (sheet.size.empty()) return;
+        if (const auto paper = paperSize(sheet.size)) {
+            const bool named = sheet.size.find('x') == std::string::npos;
+            const glm::dvec2 millimetres = named && sheet.orientation == Orientation::landscape ? glm::dvec2(paper->y, paper->x) : *paper;
+            const glm::dvec2 pixels = millimetres / 25.4 * config_.image.dpi;
+            if (std::max(pixels.x, pixels.y) > 65536) fail(*node->find("size"), fmt::format("the sheet has {:.0f}×{:.0f} pixels at {} dpi, more than 65536", pixels.x, pixels.y, config_.image.dpi), "lower image.dpi");
+            config_.image.size = glm::max(glm::ivec2(glm::round(pixels)), glm::ivec2(1));
+        } else {
+            fail(*node->find("size"), fmt::format("'{}' is no sheet", sheet.size), "write \"A1\" or, in millimetres, \"600x400\"");
+        }
+        if (sheet.scale.empty()) return;
+        if (const auto scale = parseScale(sheet.scale)) config_.scale = *scale;
+        else fail(*node->find("scale"), fmt::format("'{}' is no scale", sheet.scale), "write for example \"1:50\"");
     }
 
     void readEffects() {
@@ -117,6 +183,8 @@ private:
             else if (path) config_.output.path = pathIn(*path);
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
+        // Printers are told of a density that somebody chose.
+        if (const Node* image = document_.find("image"); document_.find("sheet") || (image && image->find("dpi"))) config_.output.encode.dpi = config_.image.dpi;
         // Without a word about where to: beside the working directory, under the config's name.
         if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
         if (!fileFormat(config_.output.path))
@@ -154,6 +222,7 @@ private:
 
 std::vector<ConfigSection> configSections() {
     return {{"", "top of the file", kHeader}, {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")", kImage},
+            {"[sheet]", "paper to draw on, instead of image.size", kSheet},
             {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput}};
 }
 

@@ -42,6 +42,8 @@ struct RenderConfig {
     std::optional<TechniqueChoice> ao;
     std::vector<TechniqueChoice> aoFilters;  ///< applied in order
     std::vector<TechniqueChoice> edges;      ///< layers, drawn in order
+    std::vector<std::string> sections;       ///< names of the scene's sections to cut by
+    double scale = 0;                        ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
     std::optional<FrameRange> frames;        ///< narrows the scene's
     OutputSettings output;
     std::string hash;                        ///< of everything in the config, includes and settings applied

@@ -45,7 +45,7 @@ std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedS
     auto viewers = std::make_shared<std::vector<Viewer>>();
     const FrameRange frames = loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
     for (int frame = frames.first; frame <= frames.last; ++frame) {
-        const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
+        const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
         const View view = makeView(scene.camera, scene.info, {.imageSize = config.image.size});
         const glm::dvec2 size(config.image.size);
         const auto& instance = scene.instances[number];

@@ -169,12 +169,37 @@ static std::uint32_t lineRecord(DrawScene& scene, const Instance& object, const 
     return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
 }
 
-DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize) {
+FrameRequest frameRequest(const RenderConfig& config, double frame) { return {config.camera, frame, config.image.size, config.image.dpi, config.sections, config.scale}; }
+
+/// The sections that are asked for, and their materials.
+static std::vector<std::uint32_t> resolveSections(const Scene& scene, const FrameRequest& request, DrawScene& draw, std::vector<Material>& materials) {
+    std::vector<std::string> names;
+    for (const auto& section : scene.sections) names.push_back(section.base.name);
+    for (const auto& name : request.sections)
+        if (std::find(names.begin(), names.end(), name) == names.end()) throw Error(ExitCode::usage, {scene.file}, fmt::format("there is no section '{}'", name), names.empty() ? "add a [[section]] with that name to the scene" : nameRemedy(name, names));
+    std::vector<std::uint32_t> numbers;
+    for (const auto& keyed : scene.sections) {
+        if (!keyed.base.name.empty() && std::find(request.sections.begin(), request.sections.end(), keyed.base.name) == request.sections.end()) continue;
+        const Section section = keyed.at(request.frame);
+        const double length = glm::length(section.normal);
+        if (!(length > 0)) throw Error(ExitCode::usage, {scene.file}, fmt::format("the normal of section '{}' has no length at frame {}", section.name, request.frame), "keep its keys from pointing opposite ways");
+        draw.sections.push_back({section.point, section.normal / length});
+        numbers.push_back(static_cast<std::uint32_t>(materials.size()));
+        const auto pixels = [&](const PictureLength& width) { return width.inPixels(request.imageSize.y, request.dpi); };
+        materials.push_back({.name = "section " + section.name, .color = section.fill, .isCut = true, .hatch = {pixels(section.hatch), pixels(section.hatchWidth), section.hatchAngle, section.hatchColor}});
+    }
+    return numbers;
+}
+
+DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request) {
     const Scene& scene = loaded.scene;
+    const std::string& cameraName = request.camera;
+    const double frame = request.frame;
     DrawScene draw;
     draw.info.up = scene.upVector();
     draw.info.bounds = loaded.bounds;
     MaterialTable materials(loaded, frame);
+    const auto cutMaterials = resolveSections(scene, request, draw, materials.materials);
     std::uint32_t nextObject = 1;
     for (const auto& keyed : scene.instances) {
         const Instance instance = keyed.at(frame);
@@ -182,8 +207,9 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
         const PolyMesh& poly = loaded.meshes[mesh].poly;
         DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
+        placed.materials.insert(placed.materials.end(), cutMaterials.begin(), cutMaterials.end());
         for (const auto material : placed.materials) placed.lineRecords.push_back(lineRecord(draw, instance, materials.materials[material]));
-        nextObject += static_cast<std::uint32_t>(poly.partNames.size());
+        nextObject += static_cast<std::uint32_t>(poly.partNames.size()) + (cutMaterials.empty() ? 0 : 1);   // cut faces are an object of their own
         draw.instances.push_back(std::move(placed));
     }
     draw.materials = std::move(materials.materials);
@@ -198,7 +224,12 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
     } else if (!scene.cameras.empty()) {
         draw.camera = scene.cameras.front().at(frame);
     } else {
-        draw.camera = framingCamera(draw.info, imageSize);
+        draw.camera = framingCamera(draw.info, request.imageSize);
+    }
+    if (request.scale > 0) {
+        if (draw.camera.orthographicHeight <= 0) throw Error(ExitCode::usage, {scene.file}, fmt::format("camera '{}' cannot draw to scale: it sees in perspective", draw.camera.name), "give it orthographic_height (any), or leave sheet.scale out");
+        const double paperMetres = request.imageSize.y / request.dpi * 0.0254;
+        draw.camera.orthographicHeight = paperMetres / request.scale / scene.metersPerUnit;
     }
     if (draw.camera.position == draw.camera.lookAt) throw Error(ExitCode::usage, {scene.file}, fmt::format("camera '{}' looks at the point where it stands", draw.camera.name), "move look_at away from position");
     for (const auto& keyed : scene.lights) {
@@ -215,6 +246,8 @@ DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName,
 SceneFacts sceneFacts(const DrawScene& scene) {
     SceneFacts facts{scene.info, scene.lights, scene.instances, scene.materials};
     facts.lineRecords = scene.lineRecords.size() > 1;
+    facts.sections = !scene.sections.empty();
+    facts.hatched = std::any_of(scene.materials.begin(), scene.materials.end(), [](const auto& material) { return material.hatch.spacing > 0; });
     for (const auto& instance : scene.instances)
         for (const auto material : instance.materials) facts.textured = facts.textured || !scene.materials[material].texture.empty();
     for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;

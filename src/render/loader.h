@@ -37,8 +37,19 @@ LoadedScene loadScene(const std::filesystem::path& path);
 /// The scene of a config. Throws Error (usage) where `subdivide` is asked of a scene that says itself what is subdivided.
 LoadedScene loadScene(const RenderConfig& config);
 
-/// The scene at a frame. `cameraName` empty: the first camera, or one that frames the scene. Throws Error when there is no such camera.
-DrawScene resolveFrame(const LoadedScene& loaded, const std::string& cameraName, double frame, glm::ivec2 imageSize);
+/// What a picture wants of a scene.
+struct FrameRequest {
+    std::string camera;                     ///< empty: the first, or one that frames the scene
+    double frame = 1;
+    glm::ivec2 imageSize{1280, 720};
+    double dpi = 96;
+    std::vector<std::string> sections;      ///< names of those to cut by, beside those without a name
+    double scale = 0;                       ///< of a drawing on paper, 1/50 for example; 0: as the camera says
+};
+FrameRequest frameRequest(const RenderConfig& config, double frame);
+
+/// The scene at a frame. Throws Error where there is no such camera or section, or the camera cannot draw to scale.
+DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request);
 
 /// Number of textured materials that are drawn, and whether a light is coloured: what effects build on.
 SceneFacts sceneFacts(const DrawScene& scene);

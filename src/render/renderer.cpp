@@ -2,8 +2,10 @@
 
 #include "base/file.h"
 #include "base/install.h"
+#include "base/log.h"
 #include "base/text.h"
 #include "frame/directions.h"
+#include "geometry/section.h"
 #include "render/edge_rates.h"
 
 #include <fmt/format.h>
@@ -116,6 +118,42 @@ std::string cpuFeatures() {
 
 SceneData neededData(const Plan& a, const std::optional<FramePlan>& b) { return b ? a.sceneData | b->plan.sceneData : a.sceneData; }
 
+/// Cuts every instance that a section reaches; it then has a mesh of its own.
+void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds& needs, std::vector<TriMesh>& meshes, std::vector<int>& meshOf) {
+    std::vector<TriMesh> cut(scene.instances.size());
+    std::vector<char> isOwn(scene.instances.size());
+    std::vector<std::size_t> open(scene.instances.size());
+    tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
+        const DrawInstance& instance = scene.instances[i];
+        const TriMesh* mesh = &meshes[static_cast<std::size_t>(meshOf[i])];
+        const PolyMesh& poly = loaded.meshes[static_cast<std::size_t>(instance.mesh)].poly;
+        const glm::dmat3 linear(instance.worldFromMesh);
+        const glm::dvec3 pivot(instance.worldFromMesh * glm::dvec4(mesh->pivot, 1));
+        for (std::size_t s = 0; s < scene.sections.size(); ++s) {
+            const SectionPlane& section = scene.sections[s];
+            const CutPlane plane{glm::transpose(linear) * section.normal, glm::dot(section.normal, pivot - section.point), static_cast<std::uint32_t>(poly.materialNames.size() + s), static_cast<std::uint32_t>(poly.partNames.size())};
+            if (!isCut(*mesh, plane)) continue;
+            CutMesh done = cutMesh(*mesh, plane, needs);
+            open[i] += done.openOutlines;
+            cut[i] = std::move(done.mesh);
+            mesh = &cut[i];
+            isOwn[i] = true;
+        }
+        if (isOwn[i] && !needs.unified) numberByLastVertex(cut[i]);
+    });
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        if (open[i] > 0) log::warning("object '{}' is not closed where a section cuts it: {} outline{} without a cut face", scene.instances[i].name, open[i], open[i] == 1 ? "" : "s");
+        if (!isOwn[i]) continue;
+        meshOf[i] = static_cast<int>(meshes.size());
+        meshes.push_back(std::move(cut[i]));
+    }
+    // What only cut instances showed is no longer needed.
+    std::vector<char> used(meshes.size());
+    for (const int mesh : meshOf) used[static_cast<std::size_t>(mesh)] = true;
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        if (!used[m]) meshes[m] = {};
+}
+
 /// Both plans of a frame: the averaged AOVs over all samples, and the others at the pixel's centre.
 struct FramePlans {
     SampleSplit split;
@@ -152,7 +190,7 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
 }  // namespace
 
 ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {
-    const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
+    const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
     const SceneFacts facts = sceneFacts(scene);
     FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0);
     ExplainedPlan result{std::move(plans.averaged), std::move(plans.centre), {}};
@@ -196,9 +234,9 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
     const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
     const std::string fittedTo = fitted ? fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y) : "";
     std::vector<glm::dmat4> places;
-    if (has(needs, SceneData::rays))
+    if (has(needs, SceneData::rays) || !scene.sections.empty())
         for (const auto& instance : scene.instances) places.push_back(instance.worldFromMesh);
-    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes && places == rayPlaces_) return *gpuScene_;
+    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes && places == places_ && scene.sections == sections_) return *gpuScene_;
     Stopwatch watch(times);
     // Edges that are cut to look smooth to the camera need a mesh per instance; else instances share theirs.
     struct Build { std::size_t mesh; std::optional<std::size_t> instance; };
@@ -226,6 +264,10 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
         meshes[i] = subdivide(poly, *subdivision, meshNeeds, loaded.scene.meshes[builds[i].mesh].file);
     });
     watch.lap("of which triangles");
+    if (!scene.sections.empty()) {
+        cutOpen(loaded, scene, meshNeeds, meshes, meshOf);
+        watch.lap("of which cutting");
+    }
     gpuScene_ = nullptr;   // gives the old one's memory back first
     gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits());
     watch.lap("of which upload");
@@ -234,7 +276,8 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
         rayScene_ = std::make_unique<RayScene>(scene, meshes, meshOf);
         watch.lap("of which ray tracing tree");
     }
-    rayPlaces_ = std::move(places);
+    places_ = std::move(places);
+    sections_ = scene.sections;
     gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs, gpuSceneFittedTo_ = fittedTo;
     return *gpuScene_;
 }
@@ -242,7 +285,7 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
 RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options) {
     RenderedFrame result;
     Stopwatch watch(result.times);
-    const DrawScene scene = resolveFrame(loaded, config.camera, frame, config.image.size);
+    const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
     const SceneFacts facts = sceneFacts(scene);
     const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
     const FramePlans plans = planBoth(config, scene, facts, frame, largest, options.guard);

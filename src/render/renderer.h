@@ -70,7 +70,8 @@ private:
     std::vector<PassTime> passTimes_;
     std::unique_ptr<GpuScene> gpuScene_;
     std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays
-    std::vector<glm::dmat4> rayPlaces_;      ///< where rayScene_'s instances stand
+    std::vector<glm::dmat4> places_;         ///< where instances stand, for rayScene_ and sections
+    std::vector<SectionPlane> sections_;     ///< that cut what is in gpuScene_
     std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
     SceneData gpuSceneData_ = SceneData::none;
     std::string gpuSceneFittedTo_;           ///< camera and picture that edges were cut for; empty when none were

@@ -99,6 +99,17 @@ constexpr Field kMaterial[] = {
     field<&Material::specular>("specular", {.min = 0, .max = 10, .doc = "Strength of the highlight."}),
 };
 
+constexpr Field kSection[] = {
+    field<&Section::name>("name", {.doc = "Name by which configs ask for the cut (sections = [\"NAME\"]); without one it is always made."}),
+    field<&Section::point>("point", {.unit = "scene units", .required = true, .doc = "Any point on the plane."}),
+    field<&Section::normal>("normal", {.required = true, .doc = "Direction across the plane, towards what is cut away."}),
+    field<&Section::fill>("fill", {.doc = "Colour of the cut faces."}),
+    field<&Section::hatch>("hatch", {.unit = "picture", .min = 0, .doc = "Distance of hatching lines on the cut faces; 0 for none."}),
+    field<&Section::hatchAngle>("hatch_angle", {.unit = "degrees", .doc = "Their angle from the picture's horizontal."}),
+    field<&Section::hatchWidth>("hatch_width", {.unit = "picture", .min = 0, .doc = "Their width."}),
+    field<&Section::hatchColor>("hatch_color", {.doc = "Their colour."}),
+};
+
 struct Animation {
     std::string frames;
     double fps = 24;
@@ -113,7 +124,7 @@ public:
     SceneReader(const Node& document, const std::filesystem::path& path) : document_(document) { scene_.file = path.string(); }
 
     Scene read() {
-        static constexpr std::string_view sections[] = {"units", "mesh", "instance", "camera", "light", "material", "animation"};
+        static constexpr std::string_view sections[] = {"units", "mesh", "instance", "camera", "light", "material", "section", "animation"};
         SceneHeader header;
         readFields(document_, kHeader, &header, nullptr, "the scene", errors_, sections);
         scene_.up = header.up;
@@ -128,6 +139,7 @@ public:
         forEach("instance", [&](const Node& node) { readInstance(node); });
         forEach("camera", [&](const Node& node) { readCamera(node); });
         forEach("light", [&](const Node& node) { readLight(node); });
+        forEach("section", [&](const Node& node) { readSection(node); });
         if (scene_.meshes.empty() && errors_.empty()) fail(document_, "the scene has no [[mesh]]", "add one:  [[mesh]]  name = \"chair\"  file = \"chair.obj\"");
         errors_.throwIfAny();
         if (scene_.instances.empty())
@@ -240,6 +252,14 @@ private:
         scene_.lights.push_back(std::move(light));
     }
 
+    void readSection(const Node& node) {
+        auto section = readTable<Section>(node, kSection, "[[section]]");
+        if (node.find("normal") && glm::length(section.base.normal) == 0) fail(*node.find("normal"), "the section's normal has no length", "give a direction such as [0, 0, 1]");
+        for (const auto& other : scene_.sections)
+            if (!section.base.name.empty() && other.base.name == section.base.name) fail(node, fmt::format("there are two sections named '{}'", section.base.name), "give each its own name");
+        scene_.sections.push_back(std::move(section));
+    }
+
     const Node& document_;
     Scene scene_;
     ErrorCollector errors_;
@@ -281,6 +301,7 @@ std::vector<SceneSection> sceneSections() {
             {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight},
             {"[[light]] shadow", "shadow map of a light; without it the light casts none and costs none", kShadow},
             {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial},
+            {"[[section]]", "a plane that cuts the scene open", kSection},
             {"[animation]", "declared frames; without them the scene is a still", kAnimation}};
 }
 

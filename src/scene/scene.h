@@ -32,6 +32,14 @@ struct LineOverride {
     bool operator==(const LineOverride&) const = default;
 };
 
+/// Parallel lines in the picture.
+struct Hatch {
+    double spacing = 0;         ///< pixels; 0: none
+    double width = 1;           ///< pixels
+    double angle = 45;          ///< degrees from the horizontal
+    Color color;
+};
+
 struct Material {
     std::string name;
     Color color = kPaperGrey;
@@ -42,6 +50,19 @@ struct Material {
     OptionalColor lineColor;
     double creaseAngle = 0;     ///< degrees; 0 = as the line technique says
     bool isCut = false;         ///< the cut face of a section
+    Hatch hatch;                ///< lines across it, on the cut faces of sections
+};
+
+/// A plane that cuts the scene open: what lies on its normal's side is taken away.
+struct Section {
+    std::string name;           ///< cut only where a config names it; empty: always
+    glm::dvec3 point{0};
+    glm::dvec3 normal{0, 0, 1};
+    Color fill{0.08f, 0.08f, 0.08f};
+    PictureLength hatch;        ///< distance of hatching lines over the fill; 0: none
+    double hatchAngle = 45;     ///< degrees from the picture's horizontal
+    PictureLength hatchWidth{0.18, PictureLength::Unit::millimetres};
+    Color hatchColor{1, 1, 1};
 };
 
 enum class SubdivisionSchemeName { catmullClark, loop, bilinear };
@@ -142,6 +163,7 @@ struct Scene {
     std::vector<Keyed<Camera>> cameras;
     std::vector<Keyed<Light>> lights;
     std::vector<Keyed<Material>> materials;
+    std::vector<Keyed<Section>> sections;
     std::optional<FrameRange> frames;     ///< declared frames; none for a still
     double fps = 24;
 

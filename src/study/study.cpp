@@ -220,7 +220,7 @@ private:
         wide.guard = static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
         const RenderConfig surfaces = config(camera, Node{}, {}, "'depth', 'normal_geometric'");
         const RenderedFrame seen = renderer_.render(surfaces, loaded_, loaded_.scene.firstFrame(), wide);
-        const DrawScene scene = resolveFrame(loaded_, camera, loaded_.scene.firstFrame(), settings_.size);
+        const DrawScene scene = resolveFrame(loaded_, {.camera = camera, .frame = static_cast<double>(loaded_.scene.firstFrame()), .imageSize = settings_.size, .sections = {}});
         const auto shell = buildShell(seen.view, scene.info, seen.layers[0].image.pixels, seen.layers[1].image.pixels);
         shot.shell = traceShell(*shell, seen);
         for (std::size_t i = 0; i < shot.shell.size(); ++i)

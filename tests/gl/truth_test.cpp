@@ -13,9 +13,6 @@
 namespace limn::test {
 namespace {
 
-std::string cameraToml(const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up = {0, 1, 0}) {
-    return fmt::format("[[camera]]\nposition = {}\nlook_at = {}\nup = {}\n{}\n", toml(position), toml(lookAt), toml(up), lens);
-}
 
 /// A parallelogram through (0, 0, −z), leaning away by `slope` (tangent of the tilt), just large enough to fill the view. The steepest is 59.8 degrees.
 std::string leaningPlane(double z, double slope) {

@@ -48,6 +48,10 @@ Picture draw(const RenderConfig& config, const LoadedScene& scene, const RenderO
 
 std::string toml(const glm::dvec3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x, v.y, v.z); }
 
+std::string cameraToml(const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up) {
+    return fmt::format("[[camera]]\nposition = {}\nlook_at = {}\nup = {}\n{}\n", toml(position), toml(lookAt), toml(up), lens);
+}
+
 namespace {
 
 std::string vertex(const glm::dvec3& p) { return fmt::format("v {:.17g} {:.17g} {:.17g}\n", p.x, p.y, p.z); }

@@ -33,6 +33,9 @@ std::string boxObj(const glm::dvec3& lo, const glm::dvec3& hi);
 /// A little of everything: floor, walls, boxes, a sphere, a thin card and wires, near and far.
 std::string mixedObj(const glm::dvec3& offset = glm::dvec3(0), double scale = 1);
 
+/// A [[camera]]; `lens` is its line of fov, focal_length or orthographic_height.
+std::string cameraToml(const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up = {0, 1, 0});
+
 /// Numbers in full, as TOML: "[1, 2, 3]".
 std::string toml(const glm::dvec3& v);
 

@@ -157,6 +157,9 @@ void main() {
     vec2 uvY = uvAt(uvCorners, intersect(s, centre + dvec2(0.0lf, part)).weights) - here;
     if (look.levels > 0) look.color *= sampleTexture(look, uv, uvX, uvY).rgb;
 #endif
+#ifdef HATCHED
+    look.color = hatched(look, vec2(pixel + view.origin) + 0.5);
+#endif
     write_albedo(vec4(look.color, 1));
 #endif
 }

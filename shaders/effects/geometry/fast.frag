@@ -58,6 +58,9 @@ void main() {
     vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);
     if (look.levels > 0) look.color *= sampleTexture(look, uvBetween, uvX, uvY).rgb;
 #endif
+#ifdef HATCHED
+    look.color = hatched(look, gl_FragCoord.xy + vec2(view.origin));
+#endif
     albedo = vec4(look.color, 1);
 #endif
 }

@@ -26,8 +26,10 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
 }
 
 inline std::vector<std::pair<std::string, std::string>> surfaceDefines(const EffectBuilder& graph) {
-    if (graph.scene().textured) return {{"TEXTURED", ""}};
-    return {};
+    std::vector<std::pair<std::string, std::string>> defines;
+    if (graph.scene().textured) defines.emplace_back("TEXTURED", "");
+    if (graph.scene().hatched) defines.emplace_back("HATCHED", "");
+    return defines;
 }
 
 }  // namespace limn
