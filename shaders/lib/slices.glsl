@@ -83,4 +83,4 @@ float marchLength(Slice s, ivec2 pixel, vec2 direction, float speed, vec3 positi
 float stepReach(float share, float growth) { return share * mix(1.0, share, growth); }
 
 // The pixel that a step of the march falls on. Steps are at least a pixel long, so that it is another pixel except at the border of what was drawn.
-ivec2 tapAt(ivec2 pixel, vec2 direction, float reach) { return clamp(ivec2(vec2(pixel) + 0.5 + direction * reach), ivec2(0), (view.size - 1) / COARSENESS); }
+ivec2 tapAt(ivec2 pixel, vec2 direction, float reach) { return clamp(pixelFrom(pixel, direction * reach), ivec2(0), (view.size - 1) / COARSENESS); }

@@ -24,12 +24,17 @@ vec3 viewPosition(ivec2 pixel, float depth) {
 // Unit vector from a view-space position towards the eye.
 vec3 towardsEye(vec3 position) { return view.orthographic ? vec3(0, 0, 1) : normalize(-position); }
 
-// The pixel that a view-space position falls on, with fraction: centres lie at +0.5. Needs position.z < 0 unless orthographic.
-vec2 pixelOf(vec3 position) {
+// The pixel that a view-space position falls on. Needs position.z < 0 unless orthographic. Rounded where it lies in the whole picture, so that
+// every tile rounds alike.
+ivec2 pixelOf(vec3 position) {
     vec2 ray = view.orthographic ? position.xy : position.xy / -position.z;
-    vec2 at = (ray - view.rayOffset) / view.rayScale - vec2(view.origin);
-    return COARSENESS == 1 ? at : (at - 0.5) / float(COARSENESS) + 0.5;
+    vec2 at = (ray - view.rayOffset) / view.rayScale;
+    ivec2 origin = view.origin / COARSENESS;   // even, where pixels are coarse
+    return ivec2(floor(COARSENESS == 1 ? at : (at - 0.5) / float(COARSENESS) + 0.5)) - origin;
 }
+
+// The pixel so many pixels off another's centre. The offset is rounded, not the sum, so that every tile rounds alike.
+ivec2 pixelFrom(ivec2 pixel, vec2 offset) { return pixel + ivec2(floor(offset + 0.5)); }
 
 // Width of a pixel at a depth, in normalized units.
 float pixelFootprint(float depth) { return float(COARSENESS) * view.rayScale.x * (view.orthographic ? 1.0 : depth); }

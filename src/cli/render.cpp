@@ -203,6 +203,10 @@ ExitCode run(const Options& options) {
             try {
                 RenderOptions renderOptions;
                 if (!options.crop.empty()) renderOptions.crop = parseCrop(options.crop, job.config.image.size);
+                // What memory should not hold twice is encoded while it is drawn.
+                const glm::ivec2 size = renderOptions.crop.size.x > 0 ? renderOptions.crop.size : job.config.image.size;
+                FrameWriter writer(path, job.config.output.encode, size.y);
+                renderOptions.onBand = [&](const RenderedFrame& band) { writer.add(band); };
                 RenderedFrame rendered = renderer.render(job.config, loaded, frame, renderOptions);
                 if (done == 0) rendered.times.insert(rendered.times.begin(), {{"device", deviceMs}, {"load, beyond the device", std::max(0.0, loadMs - deviceMs)}});
                 if (rendered.nonFinite > 0) {
@@ -211,7 +215,7 @@ ExitCode run(const Options& options) {
                     log::warning("{}: please report this, with the scene", text);
                 }
                 const auto writeStart = Clock::now();
-                const auto files = writeFrame(rendered, path, job.config.output.encode);
+                const auto files = writer.finish();
                 const double writeMs = since(writeStart), totalMs = done == 0 ? since(start) : since(frameStart);
                 for (const auto& file : files) log::info("Saved: '{}' ({:.1f} ms)", file.string(), totalMs);
                 for (const auto& part : rendered.times) log::debug("  {:<24} {:8.1f} ms", part.name, part.milliseconds);

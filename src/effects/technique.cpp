@@ -66,7 +66,7 @@ ResourceId EffectBuilder::image(std::string name, Format format, int coarseness)
 
 ResourceId EffectBuilder::fineImage(std::string name, Format format) {
     usesFineRaster_ = true;
-    return graph_.add({std::move(name), format, view_.region.size * view_.split.raster, false});
+    return graph_.add({std::move(name), format, view_.canvas.size * view_.split.raster, false});
 }
 
 void EffectBuilder::add(Pass pass) {

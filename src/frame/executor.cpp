@@ -280,7 +280,9 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
         const int raster = pass.rate == Pass::Rate::sample ? 1 : view.split.raster;
-        gl::setViewport({0, 0}, view.region.size * raster);
+        gl::setViewport({0, 0}, view.canvas.size * raster);
+        // Of a canvas larger than the region only that part is of interest.
+        const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
         scene.draw();
     }
     for (const auto& drawing : pass.drawings) {

@@ -36,7 +36,7 @@ struct ViewConstants {
     glm::mat4 clipFromView, worldFromView;
     glm::dvec2 rayScaleExact, rayOffsetExact;
     glm::vec2 rayScale, rayOffset, samplePlace;
-    glm::ivec2 canvasSize, origin, size;
+    glm::ivec2 canvasSize, placeInCanvas, origin, size;
     glm::ivec2 placeOnRaster;
     int raster, sample;
     unsigned seed;
@@ -45,14 +45,15 @@ struct ViewConstants {
 };
 
 constexpr Field kViewConstants[] = {
-    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of the picture and its guard band; depth reversed, 0…1."}),
+    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of what triangles are drawn into at once; depth reversed, 0…1."}),
     field<&ViewConstants::worldFromView>("worldFromView", {.doc = "Directions only need its upper 3×3."}),
     field<&ViewConstants::rayScaleExact>("rayScaleExact", {.doc = "rayScale in double precision."}),
     field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
     field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
     field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
     field<&ViewConstants::samplePlace>("samplePlace", {.unit = "pixels", .doc = "Where the sample's rays go within their pixels, from the centre."}),
-    field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels", .doc = "Of what clip space spans: the picture and its guard band."}),
+    field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels", .doc = "Of what clip space spans."}),
+    field<&ViewConstants::placeInCanvas>("placeInCanvas", {.unit = "pixels", .doc = "Lower left of the region drawn, in that."}),
     field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the picture: negative where the guard band begins."}),
     field<&ViewConstants::size>("size", {.unit = "pixels", .doc = "Of the region drawn: the size of every screen texture."}),
     field<&ViewConstants::placeOnRaster>("placeOnRaster", {.unit = "fine pixels", .doc = "Which fine pixel of each pixel this sample looks at."}),
@@ -84,10 +85,10 @@ SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize) {
 }
 
 glm::dmat4 View::clipFromView() const {
-    const glm::dvec2 size(imageSize + 2 * guard);
-    // ndc = 2·(pixel + guard)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the pixel's corner: + 0.5 − 0.5.
+    const glm::dvec2 size(canvas.size);
+    // ndc = 2·(pixel − canvas.origin)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the pixel's corner: + 0.5 − 0.5.
     const glm::dvec2 scale = 2.0 / (rayScale * size);
-    const glm::dvec2 offset = 2.0 * (glm::dvec2(guard) - rasterOffset / rayScale) / size - 1.0;
+    const glm::dvec2 offset = 2.0 * (glm::dvec2(-canvas.origin) - rasterOffset / rayScale) / size - 1.0;
     glm::dmat4 m(0);
     m[0][0] = scale.x;
     m[1][1] = scale.y;
@@ -124,7 +125,10 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.guard = request.guard;
     view.keptGuard = request.keptGuard;
     view.widestGuard = request.widestGuard;
-    view.region = {glm::ivec2(-request.guard), request.imageSize + 2 * request.guard};
+    const PixelRect picture{glm::ivec2(0), request.imageSize};
+    const PixelRect block = request.block.size.x > 0 ? request.block : picture, tile = request.tile.size.x > 0 ? request.tile : block;
+    view.canvas = {block.origin - request.guard, block.size + 2 * request.guard};
+    view.region = {tile.origin - request.guard, tile.size + 2 * request.guard};
     view.split = request.split;
     view.sample = request.sample;
     view.seed = request.seed;
@@ -215,7 +219,8 @@ UniformBlock viewBlock(const View& view) {
     c.rayScale = view.rayScale;
     c.rayOffset = view.rayOffset;
     c.samplePlace = view.samplePlace;
-    c.canvasSize = view.imageSize + 2 * view.guard;
+    c.canvasSize = view.canvas.size;
+    c.placeInCanvas = view.region.origin - view.canvas.origin;
     c.origin = view.region.origin;
     c.size = view.region.size;
     c.placeOnRaster = view.placeOnRaster();

@@ -40,7 +40,8 @@ SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
 struct View {
     glm::ivec2 imageSize{0};        ///< of the whole picture, in output pixels
     int guard = 0;                  ///< pixels drawn around the picture, so that effects that look around themselves are right at its border
-    PixelRect region;               ///< what is drawn: the picture and its guard band, in output pixels
+    PixelRect canvas;               ///< what triangles are drawn into at once: the picture, or one of the blocks of a large one, and the guard band
+    PixelRect region;               ///< what effects draw: the canvas, or a tile of it and a guard band
     SampleSplit split;
     int sample = 0;                 ///< of split.samples()
     unsigned seed = 0;
@@ -68,7 +69,7 @@ struct View {
     int subFrame() const { return sample / split.perSubFrame(); }
     /// Which fine pixel of each pixel the sample looks at.
     glm::ivec2 placeOnRaster() const { return {sample % split.perSubFrame() % split.raster, sample % split.perSubFrame() / split.raster}; }
-    /// Clip space from view space for the picture and its guard band, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
+    /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
     glm::dmat4 worldFromView() const;
@@ -78,10 +79,13 @@ struct View {
     /// How far around a pixel an effect of this reach (normalized units) may look, in pixels: at the nearest surface there can be, but no
     /// farther than the guard band may be wide.
     int haloOf(double reach) const;
+    /// Does a halo hold all that an effect would look at, or was it cut at the guard band's widest?
+    bool holds(int halo) const { return halo < widestGuard; }
 };
 
 struct ViewRequest {
     glm::ivec2 imageSize{1280, 720};
+    PixelRect block, tile;          ///< of the picture; empty: all of it
     int guard = 0, keptGuard = 0, widestGuard = 0;   ///< see View
     SampleSplit split;
     int sample = 0;

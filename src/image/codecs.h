@@ -1,4 +1,4 @@
-// The encoders behind encodeImage.
+// The encoders behind openEncoder.
 //
 // PNG goes through libspng and EXR through OpenEXR, both linked in. JPEG, TIFF and reading go through OpenImageIO, which pulls in
 // hundreds of shared libraries and a fifth of a second: it lives in a module of its own that is loaded when something needs it.
@@ -8,13 +8,13 @@
 
 namespace limn {
 
-std::vector<std::byte> encodePng(const Layer& layer, const Metadata& metadata, const EncodeOptions& options);
-std::vector<std::byte> encodeExr(std::span<const Layer> layers, const Metadata& metadata);
+std::unique_ptr<ImageEncoder> openPng(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options);
+std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata);
 
 /// The functions that the OpenImageIO module offers.
 struct ImageModule {
-    std::vector<std::byte> (*encodeJpeg)(const Layer&, const Metadata&, const EncodeOptions&);
-    std::vector<std::byte> (*encodeTiff)(const Layer&, const Metadata&, const EncodeOptions&);
+    std::unique_ptr<ImageEncoder> (*openJpeg)(const Layer&, int height, const Metadata&, const EncodeOptions&);
+    std::unique_ptr<ImageEncoder> (*openTiff)(const Layer&, int height, const Metadata&, const EncodeOptions&);
     Image (*read)(const std::filesystem::path&);
 };
 

@@ -38,58 +38,73 @@ private:
 /// "R" for the beauty, "normal.X" for others: what compositing programs expect.
 std::string channelName(const Layer& layer, const std::string& channel) { return layer.name == "beauty" ? channel : layer.name + "." + channel; }
 
-/// The samples of one layer in the form the file holds.
-struct Samples {
-    std::vector<half> halves;
-    std::vector<std::uint32_t> integers;
+class ExrEncoder : public ImageEncoder {
+public:
+    ExrEncoder(std::span<const Layer> layers, int height, const Metadata& metadata) {
+        Imf::Header header(layers.front().image.width, height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
+        for (const Layer& layer : layers)
+            for (const auto& channel : layer.channels) header.channels().insert(channelName(layer, channel), Imf::Channel(typeOf(layer)));
+        guarded([&] { file_ = std::make_unique<Imf::OutputFile>(stream_, header, static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))); });
+    }
+
+    void add(std::span<const Layer> band) override {
+        Imf::FrameBuffer frame;
+        std::vector<std::vector<half>> halves(band.size());
+        std::vector<std::vector<std::uint32_t>> integers(band.size());
+        const int height = band.front().image.height;
+        for (std::size_t l = 0; l < band.size(); ++l) {
+            const Layer& layer = band[l];
+            const auto& pixels = layer.image.pixels;
+            const char* base = reinterpret_cast<const char*>(pixels.data());
+            std::size_t size = sizeof(float);
+            if (layer.isColour) {
+                size = sizeof(half);
+                halves[l].resize(pixels.size());
+                // Half ends at 65504: clamp rather than write infinity.
+                std::transform(pixels.begin(), pixels.end(), halves[l].begin(), [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
+                base = reinterpret_cast<const char*>(halves[l].data());
+            } else if (layer.isInteger) {
+                size = sizeof(std::uint32_t);
+                integers[l].resize(pixels.size());
+                std::transform(pixels.begin(), pixels.end(), integers[l].begin(), [](float v) { return static_cast<std::uint32_t>(v); });
+                base = reinterpret_cast<const char*>(integers[l].data());
+            }
+            const std::size_t step = static_cast<std::size_t>(layer.image.channels) * size, row = step * static_cast<std::size_t>(layer.image.width);
+            // The library counts rows from the picture's top.
+            for (std::size_t c = 0; c < layer.channels.size(); ++c) frame.insert(channelName(layer, layer.channels[c]), Imf::Slice(typeOf(layer), const_cast<char*>(base) + c * size - static_cast<std::ptrdiff_t>(row) * rows_, step, row));
+        }
+        guarded([&] {
+            file_->setFrameBuffer(frame);
+            file_->writePixels(height);
+        });
+        rows_ += height;
+    }
+
+    std::vector<std::byte> finish() override {
+        guarded([&] { file_.reset(); });
+        return std::move(stream_.bytes);
+    }
+
+private:
+    static Imf::PixelType typeOf(const Layer& layer) { return layer.isColour ? Imf::HALF : layer.isInteger ? Imf::UINT : Imf::FLOAT; }
+
+    static void guarded(const auto& work) {
+        try {
+            work();
+        } catch (const std::exception& error) {
+            throw Error(ExitCode::internal, {}, fmt::format("EXR encoding failed ({})", error.what()));
+        }
+    }
+
+    MemoryStream stream_;
+    std::unique_ptr<Imf::OutputFile> file_;
+    std::ptrdiff_t rows_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::byte> encodeExr(std::span<const Layer> layers, const Metadata& metadata) {
-    const int width = layers.front().image.width, height = layers.front().image.height;
-    Imf::Header header(width, height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
-
-    Imf::FrameBuffer frame;
-    std::vector<Samples> converted(layers.size());
-    for (std::size_t l = 0; l < layers.size(); ++l) {
-        const Layer& layer = layers[l];
-        const auto& pixels = layer.image.pixels;
-        const char* base = reinterpret_cast<const char*>(pixels.data());
-        Imf::PixelType type = Imf::FLOAT;
-        std::size_t size = sizeof(float);
-        if (layer.isColour) {
-            type = Imf::HALF, size = sizeof(half);
-            auto& halves = converted[l].halves;
-            halves.resize(pixels.size());
-            // Half ends at 65504: clamp rather than write infinity.
-            std::transform(pixels.begin(), pixels.end(), halves.begin(), [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
-            base = reinterpret_cast<const char*>(halves.data());
-        } else if (layer.isInteger) {
-            type = Imf::UINT, size = sizeof(std::uint32_t);
-            auto& integers = converted[l].integers;
-            integers.resize(pixels.size());
-            std::transform(pixels.begin(), pixels.end(), integers.begin(), [](float v) { return static_cast<std::uint32_t>(v); });
-            base = reinterpret_cast<const char*>(integers.data());
-        }
-        const auto channels = static_cast<std::size_t>(layer.image.channels);
-        for (std::size_t c = 0; c < channels; ++c) {
-            const std::string name = channelName(layer, layer.channels[c]);
-            header.channels().insert(name, Imf::Channel(type));
-            frame.insert(name, Imf::Slice(type, const_cast<char*>(base) + c * size, channels * size, channels * size * static_cast<std::size_t>(width)));
-        }
-    }
-    MemoryStream stream;
-    try {
-        Imf::OutputFile file(stream, header, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-        file.setFrameBuffer(frame);
-        file.writePixels(height);
-    } catch (const std::exception& error) {
-        throw Error(ExitCode::internal, {}, fmt::format("EXR encoding failed ({})", error.what()));
-    }
-    return std::move(stream.bytes);
-}
+std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata) { return std::make_unique<ExrEncoder>(layers, height, metadata); }
 
 }  // namespace limn

@@ -53,14 +53,20 @@ std::optional<FileFormat> fileFormat(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
+std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options) {
     switch (format) {
-        case FileFormat::png: return encodePng(layers.front(), metadata, options);
-        case FileFormat::exr: return encodeExr(layers, metadata);
-        case FileFormat::jpeg: return imageModule().encodeJpeg(layers.front(), metadata, options);
-        case FileFormat::tiff: return imageModule().encodeTiff(layers.front(), metadata, options);
+        case FileFormat::png: return openPng(layers.front(), height, metadata, options);
+        case FileFormat::exr: return openExr(layers, height, metadata);
+        case FileFormat::jpeg: return imageModule().openJpeg(layers.front(), height, metadata, options);
+        case FileFormat::tiff: return imageModule().openTiff(layers.front(), height, metadata, options);
     }
     throw Error(ExitCode::internal, {}, "unknown file format");
+}
+
+std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
+    const auto encoder = openEncoder(format, layers, layers.front().image.height, metadata, options);
+    encoder->add(layers);
+    return encoder->finish();
 }
 
 Image readImage(const std::filesystem::path& path) { return imageModule().read(path); }

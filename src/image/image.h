@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,7 +47,20 @@ struct EncodeOptions {
     double dpi = 0;           ///< pixels per inch, for printing; 0: not said
 };
 
-/// The bytes of a file. One layer, except for EXR. Same layers, same bytes: no dates, no times. Throws Error.
+/// Makes a file's bytes from a picture that comes band by band.
+class ImageEncoder {
+public:
+    virtual ~ImageEncoder() = default;
+    /// The next rows, from the top; the same layers in every band. Throws Error.
+    virtual void add(std::span<const Layer> band) = 0;
+    /// After the last band. Same layers, same bytes: no dates, no times, no traces of how many bands there were.
+    virtual std::vector<std::byte> finish() = 0;
+};
+
+/// One layer, except for EXR. `layers` say what will come (their images' width and channels), `height` how many rows. Throws Error.
+std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options);
+
+/// The bytes of a picture that is there as a whole.
 std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
 
 /// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.

@@ -11,49 +11,68 @@
 namespace limn {
 namespace {
 
-std::vector<std::byte> encode(const char* format, const Layer& layer, const Metadata& metadata, const EncodeOptions& options, int bits) {
-    Layer opaque;
-    const Layer* source = &layer;
-    if (layer.image.channels == 4 && std::string_view(format) == "jpeg") {  // JPEG has no alpha: what is left of the colour over black
-        opaque = layer;
-        opaque.image = {layer.image.width, layer.image.height, 3, {}};
-        for (std::size_t i = 0; i < layer.image.pixels.size(); ++i)
-            if (i % 4 != 3) opaque.image.pixels.push_back(layer.image.pixels[i]);
-        source = &opaque;
+class OiioEncoder : public ImageEncoder {
+public:
+    OiioEncoder(const char* format, const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options, int bits) : format_(format), bits_(bits), proxy_(buffer_) {
+        dropsAlpha_ = layer.image.channels == 4 && format_ == "jpeg";   // JPEG has none: what is left of the colour over black
+        OIIO::ImageSpec spec(layer.image.width, height, dropsAlpha_ ? 3 : layer.image.channels, bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
+        spec.attribute("oiio:ColorSpace", layer.isColour ? "sRGB" : "Linear");
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        // The TIFF writer would put the present time: the same input must give the same bytes.
+        spec.attribute("DateTime", "1970:01:01 00:00:00");
+        if (format_ == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
+        else spec.attribute("Compression", "zip");
+        if (options.dpi > 0) {
+            spec.attribute("ResolutionUnit", "in");
+            spec.attribute("XResolution", static_cast<float>(options.dpi));
+            spec.attribute("YResolution", static_cast<float>(options.dpi));
+        }
+        std::string description;
+        for (const auto& [key, value] : metadata) {
+            description += fmt::format("{}: {}\n", key, value);
+            if (key == "Software") spec.attribute("Software", value);
+        }
+        spec.attribute("ImageDescription", description);
+        output_ = OIIO::ImageOutput::create(format_, &proxy_);
+        check(output_ && output_->open("memory." + format_, spec));
     }
-    const Image& image = source->image;
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
-    spec.attribute("oiio:ColorSpace", source->isColour ? "sRGB" : "Linear");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    // The TIFF writer would put the present time: the same input must give the same bytes.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (std::string_view(format) == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
-    else spec.attribute("Compression", "zip");
-    if (options.dpi > 0) {
-        spec.attribute("ResolutionUnit", "in");
-        spec.attribute("XResolution", static_cast<float>(options.dpi));
-        spec.attribute("YResolution", static_cast<float>(options.dpi));
-    }
-    std::string description;
-    for (const auto& [key, value] : metadata) {
-        description += fmt::format("{}: {}\n", key, value);
-        if (key == "Software") spec.attribute("Software", value);
-    }
-    spec.attribute("ImageDescription", description);
 
-    std::vector<unsigned char> buffer;
-    OIIO::Filesystem::IOVecOutput proxy(buffer);
-    const auto output = OIIO::ImageOutput::create(format, &proxy);
-    const auto fail = [&] { throw Error(ExitCode::internal, {}, fmt::format("{} encoding failed ({})", format, output ? output->geterror() : OIIO::geterror())); };
-    if (!output || !output->open(std::string("memory.") + format, spec)) fail();
-    const bool written = bits == 16 ? output->write_image(OIIO::TypeUInt16, quantize16(*source).data()) : output->write_image(OIIO::TypeUInt8, quantize8(*source).data());
-    if (!written || !output->close()) fail();
-    const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());
-    return {bytes, bytes + buffer.size()};
-}
+    void add(std::span<const Layer> band) override {
+        Layer opaque;
+        const Layer* source = &band.front();
+        if (dropsAlpha_) {
+            opaque = *source;
+            opaque.image = {source->image.width, source->image.height, 3, {}};
+            for (std::size_t i = 0; i < source->image.pixels.size(); ++i)
+                if (i % 4 != 3) opaque.image.pixels.push_back(source->image.pixels[i]);
+            source = &opaque;
+        }
+        const int end = rows_ + source->image.height;
+        check(bits_ == 16 ? output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt16, quantize16(*source).data()) : output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt8, quantize8(*source).data()));
+        rows_ = end;
+    }
 
-std::vector<std::byte> encodeJpeg(const Layer& layer, const Metadata& metadata, const EncodeOptions& options) { return encode("jpeg", layer, metadata, options, 8); }
-std::vector<std::byte> encodeTiff(const Layer& layer, const Metadata& metadata, const EncodeOptions& options) { return encode("tiff", layer, metadata, options, options.bits); }
+    std::vector<std::byte> finish() override {
+        check(output_->close());
+        const auto* bytes = reinterpret_cast<const std::byte*>(buffer_.data());
+        return {bytes, bytes + buffer_.size()};
+    }
+
+private:
+    void check(bool done) const {
+        if (!done) throw Error(ExitCode::internal, {}, fmt::format("{} encoding failed ({})", format_, output_ ? output_->geterror() : OIIO::geterror()));
+    }
+
+    std::string format_;
+    int bits_, rows_ = 0;
+    bool dropsAlpha_ = false;
+    std::vector<unsigned char> buffer_;
+    OIIO::Filesystem::IOVecOutput proxy_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+};
+
+std::unique_ptr<ImageEncoder> openJpeg(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<OiioEncoder>("jpeg", layer, height, metadata, options, 8); }
+std::unique_ptr<ImageEncoder> openTiff(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<OiioEncoder>("tiff", layer, height, metadata, options, options.bits); }
 
 Image read(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& why) { throw Error(ExitCode::badData, {path.string()}, fmt::format("the image cannot be read ({})", why), "save it again as PNG, JPEG, TIFF or EXR"); };
@@ -79,4 +98,4 @@ Image read(const std::filesystem::path& path) {
 }  // namespace
 }  // namespace limn
 
-extern "C" const limn::ImageModule limnImageModule{limn::encodeJpeg, limn::encodeTiff, limn::read};
+extern "C" const limn::ImageModule limnImageModule{limn::openJpeg, limn::openTiff, limn::read};

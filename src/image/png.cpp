@@ -11,52 +11,75 @@
 
 namespace limn {
 
-std::vector<std::byte> encodePng(const Layer& layer, const Metadata& metadata, const EncodeOptions& options) {
-    const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
-    const auto check = [](int status) {
-        if (status != 0) throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {}, fmt::format("PNG encoding failed ({})", spng_strerror(status)));
-    };
-    constexpr std::uint8_t colorTypes[] = {0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
-    spng_ihdr header{};
-    header.width = static_cast<std::uint32_t>(layer.image.width);
-    header.height = static_cast<std::uint32_t>(layer.image.height);
-    header.bit_depth = static_cast<std::uint8_t>(options.bits);
-    header.color_type = colorTypes[layer.image.channels];
-    check(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
-    check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, options.compression));
-    // Flat stylized areas compress best with the simplest prediction, which is also the fastest.
-    check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, options.compression <= 2 ? SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP : SPNG_FILTER_CHOICE_ALL));
-    check(spng_set_ihdr(context.get(), &header));
-    if (layer.isColour) check(spng_set_srgb(context.get(), 0));
-    if (options.dpi > 0) {
-        const auto perMetre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
-        spng_phys phys{perMetre, perMetre, 1};
-        check(spng_set_phys(context.get(), &phys));
-    }
-    std::vector<spng_text> texts;
-    for (const auto& [key, value] : metadata) {
-        spng_text text{};
-        std::strncpy(text.keyword, key.c_str(), sizeof text.keyword - 1);
-        text.type = SPNG_TEXT;
-        text.text = const_cast<char*>(value.c_str());
-        text.length = value.size();
-        texts.push_back(text);
-    }
-    if (!texts.empty()) check(spng_set_text(context.get(), texts.data(), static_cast<std::uint32_t>(texts.size())));
+namespace {
 
-    if (options.bits == 16) {
-        const auto pixels = quantize16(layer);
-        check(spng_encode_image(context.get(), pixels.data(), pixels.size() * 2, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
-    } else {
-        const auto pixels = quantize8(layer);
-        check(spng_encode_image(context.get(), pixels.data(), pixels.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE));
-    }
-    std::size_t size = 0;
-    int status = 0;
-    const std::unique_ptr<void, void (*)(void*)> buffer(spng_get_png_buffer(context.get(), &size, &status), std::free);
-    check(status);
-    const auto* bytes = static_cast<const std::byte*>(buffer.get());
-    return {bytes, bytes + size};
+void check(int status) {
+    if (status != 0) throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {}, fmt::format("PNG encoding failed ({})", spng_strerror(status)));
 }
+
+class PngEncoder : public ImageEncoder {
+public:
+    PngEncoder(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) : bits_(options.bits), height_(height), context_(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free) {
+        constexpr std::uint8_t colorTypes[] = {0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
+        spng_ihdr header{};
+        header.width = static_cast<std::uint32_t>(layer.image.width);
+        header.height = static_cast<std::uint32_t>(height);
+        header.bit_depth = static_cast<std::uint8_t>(options.bits);
+        header.color_type = colorTypes[layer.image.channels];
+        check(spng_set_option(context_.get(), SPNG_ENCODE_TO_BUFFER, 1));
+        check(spng_set_option(context_.get(), SPNG_IMG_COMPRESSION_LEVEL, options.compression));
+        // Flat stylized areas compress best with the simplest prediction, which is also the fastest.
+        check(spng_set_option(context_.get(), SPNG_FILTER_CHOICE, options.compression <= 2 ? SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP : SPNG_FILTER_CHOICE_ALL));
+        check(spng_set_ihdr(context_.get(), &header));
+        if (layer.isColour) check(spng_set_srgb(context_.get(), 0));
+        if (options.dpi > 0) {
+            const auto perMetre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
+            spng_phys phys{perMetre, perMetre, 1};
+            check(spng_set_phys(context_.get(), &phys));
+        }
+        std::vector<spng_text> texts;
+        for (const auto& [key, value] : metadata) {
+            spng_text text{};
+            std::strncpy(text.keyword, key.c_str(), sizeof text.keyword - 1);
+            text.type = SPNG_TEXT;
+            text.text = const_cast<char*>(value.c_str());
+            text.length = value.size();
+            texts.push_back(text);
+        }
+        // Copied at the header's writing, which the first call below is.
+        if (!texts.empty()) check(spng_set_text(context_.get(), texts.data(), static_cast<std::uint32_t>(texts.size())));
+        check(spng_encode_image(context_.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+    }
+
+    void add(std::span<const Layer> band) override {
+        const Image& image = band.front().image;
+        const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+        const auto write = [&](const auto& pixels) {
+            for (int y = 0; y < image.height; ++y) {
+                const int status = spng_encode_row(context_.get(), pixels.data() + row * static_cast<std::size_t>(y), row * sizeof(pixels[0]));
+                if (++rows_ < height_ || status != SPNG_EOI) check(status);
+            }
+        };
+        if (bits_ == 16) write(quantize16(band.front()));
+        else write(quantize8(band.front()));
+    }
+
+    std::vector<std::byte> finish() override {
+        std::size_t size = 0;
+        int status = 0;
+        const std::unique_ptr<void, void (*)(void*)> buffer(spng_get_png_buffer(context_.get(), &size, &status), std::free);
+        check(status);
+        const auto* bytes = static_cast<const std::byte*>(buffer.get());
+        return {bytes, bytes + size};
+    }
+
+private:
+    int bits_, height_, rows_ = 0;
+    std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context_;
+};
+
+}  // namespace
+
+std::unique_ptr<ImageEncoder> openPng(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<PngEncoder>(layer, height, metadata, options); }
 
 }  // namespace limn

@@ -23,6 +23,7 @@ struct ImageSettings {
     bool transparent = false;
     double dpi = 96;
     double guard = 0.05;
+    int tile = 0;
 };
 
 struct OutputSettings {

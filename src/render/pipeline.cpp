@@ -22,10 +22,10 @@ void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) 
     choice.technique->build(builder, choice.at(frame).get(), *choice.technique);
 }
 
-/// The mean of an AOV over the samples of each pixel, as an image of the picture without its guard band.
+/// The mean of an AOV over the samples of each pixel, as an image of the region without its guard band.
 ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
-    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.imageSize, true});
+    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size - 2 * view.guard, true});
     const int samples = view.split.samples();
     Pass pass;
     pass.name = fmt::format("accumulate_{}", aov.name);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -32,15 +33,22 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard, int keptGuard) {
+/// A part of a picture, in pixels from the lower left: the block that its triangles are drawn with, and itself.
+struct Tile {
+    PixelRect block, rect;
+};
+
+ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard, int keptGuard, const Tile& tile = {}) {
     ViewRequest request;
     request.imageSize = config.image.size;
+    request.block = tile.block, request.tile = tile.rect;
     request.split = split;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.dpi = config.image.dpi;
     request.guard = guard;
     request.keptGuard = keptGuard;
-    request.widestGuard = static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y)));
+    constexpr int kWidest = 512;   // what large pictures can afford around each block
+    request.widestGuard = std::min(static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y))), kWidest);
     return request;
 }
 
@@ -154,6 +162,17 @@ void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds&
         if (!used[m]) meshes[m] = {};
 }
 
+/// Large pictures are made of blocks, each drawn with triangles of its own: below every driver's limit, and small enough for memory. They are part of
+/// what a picture is: tiles of any size give the same bits.
+int largestBlockSide(glm::ivec2 size) { return std::max(size.x, size.y) <= 4096 ? 4096 : 2048; }
+
+std::vector<std::pair<int, int>> spans(int length, int most);
+
+glm::ivec2 largestBlock(glm::ivec2 size) {
+    const auto first = [&](int length) { return spans(length, largestBlockSide(size)).front().second; };
+    return {first(size.x), first(size.y)};
+}
+
 /// Both plans of a frame: the averaged AOVs over all samples, and the others at the pixel's centre.
 struct FramePlans {
     SampleSplit split;
@@ -163,14 +182,14 @@ struct FramePlans {
     View averagedView, centreView;
 };
 
-FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const SceneFacts& facts, int frame, int maxTextureSize, int keptGuard) {
+FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const SceneFacts& facts, int frame, int maxTextureSize, int keptGuard, const Tile& tile = {}) {
     FramePlans plans;
     auto averaged = chooseAovs(config.output.aovs, true);
     const auto centre = chooseAovs(config.output.aovs, false);
     // Without anything to average one look at the pixel's centre is all there is to do.
     const bool together = averaged.empty() || config.image.samples == 1;
     const auto plan = [&] {
-        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard, keptGuard));
+        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard, keptGuard, tile));
         plans.averaged = planFrame(config, facts, plans.averagedView, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
     };
     if (averaged.empty()) plans.split = {};
@@ -178,13 +197,51 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
     // The first plan tells how wide a guard band is needed, and whether a finer raster is of use.
     plan();
     plans.guard = plans.averaged.plan.halo();
-    if (plans.averaged.usesFineRaster) plans.split = splitSamples(plans.split.samples(), config.image.size + 2 * plans.guard, maxTextureSize);
-    if (plans.guard > 0 || plans.split.raster > 1) plan();
-    if (!together && !centre.empty()) {
-        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard, keptGuard));
+    const auto makeCentre = [&] {
+        if (together || centre.empty()) return;
+        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard, keptGuard, tile));
         plans.centre = planFrame(config, facts, plans.centreView, centre, frame);
-    }
+    };
+    makeCentre();
+    if (plans.centre) plans.guard = std::max(plans.guard, plans.centre->plan.halo());
+    if (plans.averaged.usesFineRaster) plans.split = splitSamples(plans.split.samples(), largestBlock(config.image.size) + 2 * plans.guard, maxTextureSize);
+    if (plans.guard > 0 || plans.split.raster > 1) plan(), makeCentre();
     return plans;
+}
+
+/// Bytes that a plan's images take per pixel of the region drawn; what is as large as the canvas left out.
+double bytesPerPixel(const FramePlan& frame, const View& view) {
+    double bytes = 0;
+    for (const auto& texture : frame.plan.textures)
+        if (texture.size.x <= view.region.size.x) bytes += static_cast<double>(texture.bytes());
+    return bytes / (static_cast<double>(view.region.size.x) * view.region.size.y);
+}
+
+/// Does some pass look as far as there is anything? Tiles would then differ from the whole.
+bool looksEverywhere(const FramePlan& frame) {
+    return std::any_of(frame.plan.passes.begin(), frame.plan.passes.end(), [](const auto& planned) { return planned.whole; });
+}
+
+/// How large the tiles of a picture may be. As large as memory allows, since what lies around each is drawn again and again.
+int chooseTileSize(const RenderConfig& config, const FramePlans& plans, glm::ivec2 block) {
+    const bool anySize = config.accuracy == Accuracy::exact && !looksEverywhere(plans.averaged) && !(plans.centre && looksEverywhere(*plans.centre));
+    const int whole = std::max(block.x, block.y);
+    if (!anySize) return whole;   // the hardware's interpolation is tied to the canvas
+    if (config.image.tile > 0) return std::max(config.image.tile / 4 * 4, 16);
+    constexpr double kBudget = 512.0 * 1024 * 1024;
+    const double pixels = kBudget / std::max(bytesPerPixel(plans.averaged, plans.averagedView), 16.0);
+    const glm::dvec2 around = block + 2 * plans.guard;
+    if (around.x * around.y <= pixels) return whole;
+    return std::clamp((static_cast<int>(std::sqrt(pixels)) - 2 * plans.guard) / 4 * 4, 256, std::max(whole, 256));
+}
+
+/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: what is drawn at half the size keeps its place.
+std::vector<std::pair<int, int>> spans(int length, int most) {
+    const int count = (length + most - 1) / most;
+    const int step = std::min((((length + count - 1) / count) + 3) / 4 * 4, std::max(most, 4));
+    std::vector<std::pair<int, int>> result;
+    for (int at = 0; at < length; at += step) result.emplace_back(at, std::min(at + step, length));
+    return result;
 }
 
 }  // namespace
@@ -192,7 +249,8 @@ FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const Sc
 ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {
     const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
     const SceneFacts facts = sceneFacts(scene);
-    FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0);
+    const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
+    FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0, {firstBlock, firstBlock});
     ExplainedPlan result{std::move(plans.averaged), std::move(plans.centre), {}};
 
     const auto& split = plans.split;
@@ -203,6 +261,7 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
     fact("scene", loaded.scene.file);
     fact("picture", fmt::format("{}×{} pixels, camera '{}'", config.image.size.x, config.image.size.y, scene.camera.name));
     fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.samples(), split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
+    if (firstBlock.size != config.image.size) fact("blocks", fmt::format("of up to {}×{} pixels, in tiles of up to {} each way", firstBlock.size.x, firstBlock.size.y, std::min(chooseTileSize(config, plans, firstBlock.size), largestBlockSide(config.image.size))));
     if (plans.guard > 0) fact("guard band", fmt::format("{} pixels drawn around the picture", plans.guard));
     fact("accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)]));
     fact("objects", fmt::format("{} instances, {} faces, {} lights", scene.instances.size(), faces, scene.lights.size()));
@@ -282,36 +341,24 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
     return *gpuScene_;
 }
 
-RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options) {
-    RenderedFrame result;
-    Stopwatch watch(result.times);
-    const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
-    const SceneFacts facts = sceneFacts(scene);
-    const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
-    const FramePlans plans = planBoth(config, scene, facts, frame, largest, options.guard);
-    if (std::max(config.image.size.x, config.image.size.y) + 2 * plans.guard > largest)
-        throw Error(ExitCode::usage, {config.file.string()}, fmt::format("{}×{} pixels are more than this GL device draws at once ({})", config.image.size.x, config.image.size.y, largest), "make image.size smaller");
-    if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
-        throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x, layout.size.y, largest), "lower shadow.resolution");
-    watch.lap("plan");
-
-    const SceneData needs = neededData(plans.averaged.plan, plans.centre);
-    GpuScene& gpu = sceneOnGpu(config, loaded, scene, needs, result.times);
-    watch.lap("scene to the GPU");
+/// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that is to be kept).
+std::vector<Image> Renderer::drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect, const RenderOptions& options, RenderedFrame& result) {
+    const RenderConfig& config = *frame.config;
+    const Tile tile{block, rect};
+    const FramePlans plans = planBoth(config, *frame.scene, *frame.facts, frame.number, frame.largest, options.guard, tile);
+    GpuScene& gpu = *gpuScene_;
     executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
-    watch.lap("programs");
 
     executor_.resetMeasurements();
     for (int sample = 0; sample < plans.split.samples(); ++sample) {
-        ViewRequest request = viewRequest(config, plans.split, frame, plans.guard, options.guard);
+        ViewRequest request = viewRequest(config, plans.split, frame.number, plans.guard, options.guard, tile);
         request.sample = sample;
-        const View view = makeView(scene.camera, scene.info, request);
-        gpu.setView(scene, view);
-        const FramePlan one = planFrame(config, facts, view, plans.averaged.aovs, frame);
+        const View view = makeView(frame.scene->camera, frame.scene->info, request);
+        gpu.setView(*frame.scene, view);
+        const FramePlan one = planFrame(config, *frame.facts, view, plans.averaged.aovs, frame.number);
         executor_.run(one.graph, one.plan, view, gpu, rayScene_.get(), options.measure);
     }
     gl::finish();
-    watch.lap("draw");
     passTimes_.clear();
     for (std::size_t i = 0; i < executor_.milliseconds().size(); ++i) {
         const Pass& pass = plans.averaged.graph.passes[static_cast<std::size_t>(plans.averaged.plan.passes[i].pass)];
@@ -323,73 +370,155 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     const auto collect = [&](const FramePlan& plan) {
         for (std::size_t i = 0; i < plan.aovs.size(); ++i) {
             Image image = readBack(executor_.texture(plan.plan, plan.wanted[i].resource), *plan.aovs[i]);
-            if (image.width != config.image.size.x && options.guard == 0) image = crop(image, {glm::ivec2(plans.guard), config.image.size});
+            if (image.width != rect.size.x && options.guard == 0) image = crop(image, {glm::ivec2(plans.guard), rect.size});
             result.nonFinite += finish(image, *plan.aovs[i], plans.averagedView.unit);
-            images[plan.aovs[i]] = options.crop.size.x > 0 ? crop(image, options.crop) : std::move(image);
+            images[plan.aovs[i]] = std::move(image);
         }
     };
     collect(plans.averaged);
     if (plans.centre) {
         executor_.resetMeasurements();
-        gpu.setView(scene, plans.centreView);
+        gpu.setView(*frame.scene, plans.centreView);
         executor_.run(plans.centre->graph, plans.centre->plan, plans.centreView, gpu, rayScene_.get(), false);
         collect(*plans.centre);
     }
-    watch.lap("read back");
+    std::vector<Image> ordered;
+    for (const Aov* aov : config.output.aovs) ordered.push_back(std::move(images[aov]));
+    return ordered;
+}
 
-    for (const Aov* aov : config.output.aovs) {
-        Layer layer{std::string(aov->name), {}, aov->isColour, aov->isInteger(), std::move(images[aov])};
-        for (int c = 0; c < aov->channelCount(); ++c) layer.channels.emplace_back(aov->channels[static_cast<std::size_t>(c)]);
-        result.layers.push_back(std::move(layer));
-    }
+RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
+    RenderedFrame result;
+    Stopwatch watch(result.times);
+    const DrawScene scene = resolveFrame(loaded, frameRequest(config, number));
+    const SceneFacts facts = sceneFacts(scene);
+    const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
+    const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
+    const FramePlans plans = planBoth(config, scene, facts, number, largest, options.guard, {firstBlock, firstBlock});
+    if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
+        throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x, layout.size.y, largest), "lower shadow.resolution");
+    watch.lap("plan");
+    sceneOnGpu(config, loaded, scene, neededData(plans.averaged.plan, plans.centre), result.times);
+    watch.lap("scene to the GPU");
+
+    result.opaque = !config.image.transparent;
     const auto& device = device_.report();
     result.metadata = {{"Software", fmt::format("limn {}", kVersion)},
                        {"limn.config", config.hash},
                        {"limn.scene", loaded.hash},
-                       {"limn.frame", std::to_string(frame)},
+                       {"limn.frame", std::to_string(number)},
                        {"limn.accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)])},
                        {"limn.device", fmt::format("{} | {}", device.renderer, device.version)},
                        {"limn.cpu", cpuFeatures()},
                        {"limn.plan", planSummary(plans.averaged)}};
+    for (const Aov* aov : config.output.aovs) {
+        Layer layer{std::string(aov->name), {}, aov->isColour, aov->isInteger(), {}};
+        for (int c = 0; c < aov->channelCount(); ++c) layer.channels.emplace_back(aov->channels[static_cast<std::size_t>(c)]);
+        result.layers.push_back(std::move(layer));
+    }
+
+    // What is wanted, in pixels from the lower left; tiles begin at multiples of four.
+    const glm::ivec2 size = config.image.size;
+    const PixelRect wanted = options.crop.size.x > 0 ? PixelRect{{options.crop.origin.x, size.y - options.crop.origin.y - options.crop.size.y}, options.crop.size} : PixelRect{glm::ivec2(0), size};
+    const int tileSize = chooseTileSize(config, plans, firstBlock.size);
+    const auto cut = [&](int axis, int most) {
+        std::vector<std::array<int, 4>> parts;   // of a block and of a tile in it: where they begin and end
+        for (const auto& [blockFrom, blockTo] : spans(size[axis], largestBlockSide(size)))
+            for (const auto& [from, to] : spans(blockTo - blockFrom, most)) {
+                const int low = std::max(blockFrom + from, wanted.origin[axis] / 4 * 4), high = std::min(blockFrom + to, std::min(size[axis], (wanted.origin[axis] + wanted.size[axis] + 3) / 4 * 4));
+                if (low < high) parts.push_back({blockFrom, blockTo, low, high});
+            }
+        return parts;
+    };
+    // Passes that look everywhere need their whole block, whatever is wanted of it.
+    const bool wholeBlocks = tileSize >= std::max(firstBlock.size.x, firstBlock.size.y) && (config.accuracy != Accuracy::exact || looksEverywhere(plans.averaged) || (plans.centre && looksEverywhere(*plans.centre)));
+    const auto columns = cut(0, tileSize), rows = cut(1, tileSize);
+    const Frame frame{&config, &scene, &facts, number, largest};
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+        // A band: the part of these tiles that is wanted, rows from the top.
+        const int low = std::max((*row)[2], wanted.origin.y), high = std::min((*row)[3], wanted.origin.y + wanted.size.y);
+        if (low >= high) continue;
+        std::vector<Image> band(config.output.aovs.size());
+        for (const auto& column : columns) {
+            const PixelRect block{{column[0], (*row)[0]}, {column[1] - column[0], (*row)[1] - (*row)[0]}};
+            const PixelRect tile = wholeBlocks ? block : PixelRect{{column[2], (*row)[2]}, {column[3] - column[2], (*row)[3] - (*row)[2]}};
+            auto images = drawTile(frame, block, tile, options, result);
+            const bool isAll = columns.size() == 1 && low == tile.origin.y && high == tile.origin.y + tile.size.y && wanted.origin.x == tile.origin.x && wanted.size.x == tile.size.x;
+            const int left = std::max(column[2], wanted.origin.x), right = std::min(column[3], wanted.origin.x + wanted.size.x);
+            for (std::size_t i = 0; i < images.size(); ++i) {
+                if (isAll) {   // with the guard band, if that was asked for
+                    band[i] = std::move(images[i]);
+                    continue;
+                }
+                if (band[i].width == 0) band[i] = {wanted.size.x, high - low, images[i].channels, std::vector<float>(static_cast<std::size_t>(wanted.size.x) * static_cast<std::size_t>(high - low) * static_cast<std::size_t>(images[i].channels))};
+                for (int y = 0; y < high - low && left < right; ++y) {
+                    const float* from = images[i].at(left - tile.origin.x, tile.origin.y + tile.size.y - high + y);
+                    std::copy(from, from + static_cast<std::ptrdiff_t>(right - left) * images[i].channels, band[i].at(left - wanted.origin.x, y));
+                }
+            }
+        }
+        if (options.onBand) {
+            for (std::size_t i = 0; i < band.size(); ++i) result.layers[i].image = std::move(band[i]);
+            options.onBand(result);
+            for (auto& layer : result.layers) layer.image = {};
+            continue;
+        }
+        for (std::size_t i = 0; i < band.size(); ++i) {
+            Image& image = result.layers[i].image;
+            if (image.width == 0) image = std::move(band[i]);
+            else image.pixels.insert(image.pixels.end(), band[i].pixels.begin(), band[i].pixels.end()), image.height += band[i].height;
+        }
+    }
+    watch.lap("draw");
     return result;
 }
 
-std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options) {
-    const auto format = fileFormat(path);
-    if (!format) throw Error(ExitCode::usage, {path.string()}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
-    std::vector<std::filesystem::path> written;
-    const auto write = [&](const std::filesystem::path& to, FileFormat as, std::span<const Layer> layers) {
-        replaceFile(to, encodeImage(as, layers, frame.metadata, options));
-        written.push_back(to);
-    };
-    if (isMultiLayer(*format)) {
-        write(path, *format, frame.layers);
-        return written;
+FrameWriter::FrameWriter(std::filesystem::path path, const EncodeOptions& options, int height) : path_(std::move(path)), options_(options), height_(height) {
+    if (!fileFormat(path_)) throw Error(ExitCode::usage, {path_.string()}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
+}
+
+void FrameWriter::add(const RenderedFrame& band) {
+    const FileFormat format = *fileFormat(path_);
+    if (isMultiLayer(format)) {
+        if (files_.empty()) files_.push_back({path_, openEncoder(format, band.layers, height_, band.metadata, options_)});
+        files_.front().encoder->add(band.layers);
+        return;
     }
-    const auto main = std::find_if(frame.layers.begin(), frame.layers.end(), [](const Layer& layer) { return layer.name == "beauty"; });
-    for (auto layer = frame.layers.begin(); layer != frame.layers.end(); ++layer) {
-        if (layer == main) {
-            // An opaque picture needs no alpha channel.
-            Layer picture = *layer;
-            bool opaque = true;
-            for (std::size_t i = 3; i < picture.image.pixels.size() && opaque; i += 4) opaque = picture.image.pixels[i] >= 1.0f - 1e-6f;
-            if (opaque) {
-                Image rgb{picture.image.width, picture.image.height, 3, {}};
-                rgb.pixels.reserve(picture.image.pixels.size() / 4 * 3);
-                for (std::size_t i = 0; i < picture.image.pixels.size(); i += 4) rgb.pixels.insert(rgb.pixels.end(), {picture.image.pixels[i], picture.image.pixels[i + 1], picture.image.pixels[i + 2]});
-                picture.image = std::move(rgb);
-            }
-            write(path, *format, {&picture, 1});
-            continue;
-        }
+    for (std::size_t i = 0; i < band.layers.size(); ++i) {
+        const Layer& layer = band.layers[i];
+        const bool isMain = layer.name == "beauty";
         // Numbers that 8 bits would ruin stay numbers.
-        const bool isData = !layer->isColour && layer->image.channels != 1;
-        const bool exact = isData || layer->isInteger || layer->name == "depth";
-        std::filesystem::path beside = path;
-        beside.replace_extension("." + layer->name + (exact ? ".exr" : path.extension().string()));
-        write(beside, exact ? FileFormat::exr : *format, {&*layer, 1});
+        const bool exact = !isMain && ((!layer.isColour && layer.image.channels != 1) || layer.isInteger || layer.name == "depth");
+        // An opaque picture needs no alpha channel.
+        Layer picture;
+        if (isMain && band.opaque) {
+            picture = {layer.name, {"R", "G", "B"}, layer.isColour, layer.isInteger, {layer.image.width, layer.image.height, 3, {}}};
+            picture.image.pixels.reserve(layer.image.pixels.size() / 4 * 3);
+            for (std::size_t p = 0; p < layer.image.pixels.size(); p += 4) picture.image.pixels.insert(picture.image.pixels.end(), {layer.image.pixels[p], layer.image.pixels[p + 1], layer.image.pixels[p + 2]});
+        }
+        const std::span<const Layer> written(isMain && band.opaque ? &picture : &layer, 1);
+        if (files_.size() == i) {
+            std::filesystem::path to = path_;
+            if (!isMain) to.replace_extension("." + layer.name + (exact ? ".exr" : path_.extension().string()));
+            files_.push_back({to, openEncoder(exact ? FileFormat::exr : format, written, height_, band.metadata, options_)});
+        }
+        files_[i].encoder->add(written);
+    }
+}
+
+std::vector<std::filesystem::path> FrameWriter::finish() {
+    std::vector<std::filesystem::path> written;
+    for (auto& file : files_) {
+        replaceFile(file.path, file.encoder->finish());
+        written.push_back(file.path);
     }
     return written;
+}
+
+std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options) {
+    FrameWriter writer(path, options, frame.layers.front().image.height);
+    writer.add(frame);
+    return writer.finish();
 }
 
 bool hasFrameNumber(const std::filesystem::path& pattern) { return pattern.string().find('#') != std::string::npos; }

@@ -6,14 +6,19 @@
 #include "reference/ray_scene.h"
 #include "render/pipeline.h"
 
+#include <functional>
 #include <memory>
 
 namespace limn {
 
+struct RenderedFrame;
+
 struct RenderOptions {
     PixelRect crop;                 ///< output pixels from the *upper* left; empty: everything
     bool measure = false;
-    int guard = 0;                  ///< draw at least so many pixels around the picture, and keep them in the images; even
+    int guard = 0;                  ///< draw at least so many pixels around the picture, and keep them in the images; even. Not of tiles
+    /// Takes a picture band by band, from the top, as the layers' images, which are then forgotten. Without it the frame holds them all.
+    std::function<void(const RenderedFrame&)> onBand;
 };
 
 /// Milliseconds of the parts of a frame, as seen from outside.
@@ -26,6 +31,7 @@ struct RenderedFrame {
     std::vector<Layer> layers;              ///< one per AOV of the config, in its order
     Metadata metadata;
     std::vector<PartTime> times;
+    bool opaque = false;                    ///< the background covers everything
     std::uint64_t nonFinite = 0;            ///< values that are NaN or infinite, but for depth's background
     View view;                              ///< of the first sample
 };
@@ -64,6 +70,15 @@ private:
     /// instances need a new tree as well.
     GpuScene& sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
 
+    /// What all tiles of a frame share.
+    struct Frame {
+        const RenderConfig* config;
+        const DrawScene* scene;
+        const SceneFacts* facts;
+        int number, largest;
+    };
+    std::vector<Image> drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect, const RenderOptions& options, RenderedFrame& result);
+
     gl::Device device_;
     ShaderLibrary shaders_;
     Executor executor_;
@@ -75,6 +90,24 @@ private:
     std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
     SceneData gpuSceneData_ = SceneData::none;
     std::string gpuSceneFittedTo_;           ///< camera and picture that edges were cut for; empty when none were
+};
+
+/// Writes a frame that comes band by band. Nothing is on disk before finish().
+class FrameWriter {
+public:
+    FrameWriter(std::filesystem::path path, const EncodeOptions& options, int height);
+    void add(const RenderedFrame& band);
+    std::vector<std::filesystem::path> finish();
+
+private:
+    struct File {
+        std::filesystem::path path;
+        std::unique_ptr<ImageEncoder> encoder;
+    };
+    std::filesystem::path path_;
+    EncodeOptions options_;
+    int height_;
+    std::vector<File> files_;
 };
 
 /// Writes a frame: EXR holds everything at `path`; other formats hold the beauty there, and AOVs go beside it as NAME.AOV.EXT (depth and

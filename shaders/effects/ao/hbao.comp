@@ -20,7 +20,7 @@ float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float
     float highest = lowest, hidden = 0.0;
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
-        ivec2 tap = ivec2(floor(vec2(pixel) + 0.5 + direction * reach));
+        ivec2 tap = pixelFrom(pixel, direction * reach);
 #ifdef CLAMP_TAPS
         tap = clamp(tap, ivec2(0), (view.size - 1) / COARSENESS);
 #else

@@ -47,7 +47,7 @@ void main() {
         vec3 point = position + offset;
         // A point behind the eye falls on no pixel.
         if (!view.orthographic && point.z > -1e-3 * centre) continue;
-        ivec2 tap = ivec2(floor(pixelOf(point)));
+        ivec2 tap = pixelOf(point);
 #ifdef CLAMP_TAPS
         tap = clamp(tap, ivec2(0), (view.size - 1) / COARSENESS);
 #else

@@ -33,11 +33,11 @@ void main() {
         float angle = 6.283185307 * (float(i) / float(SAMPLES));
         float reach = farthest * fract((i & 1) == 0 ? random.x + float(i) * 0.618034 : random.y + float(i) * 0.618034);
 #ifdef OFFSET_IN_IMAGE
-        ivec2 tap = clamp(ivec2(floor(vec2(pixel) + 0.5 + vec2(cos(angle), sin(angle)) * reach)), ivec2(0), view.size - 1);
+        ivec2 tap = clamp(pixelFrom(pixel, vec2(cos(angle), sin(angle)) * reach), ivec2(0), view.size - 1);
 #else
         // Directions turn from pixel to pixel: eight fixed ones draw stars.
         angle += random.y * 6.283185307 / float(SAMPLES);
-        ivec2 tap = ivec2(floor(vec2(pixel) + 0.5 + vec2(cos(angle), sin(angle)) * max(reach, 1.0)));
+        ivec2 tap = pixelFrom(pixel, vec2(cos(angle), sin(angle)) * max(reach, 1.0));
         if (!insideRegion(tap)) continue;
 #endif
         if (tap == pixel) continue;

@@ -28,20 +28,15 @@ void main() {
         offset = dot(offset, surface) < 0.0 ? -offset : offset;
 #endif
 #ifdef RADIUS_IN_IMAGE
-        vec2 at = vec2(pixel) + 0.5 + offset.xy * params.radiusPixels;
+        ivec2 tap = clamp(pixelFrom(pixel, offset.xy * params.radiusPixels), ivec2(0), view.size - 1);
         vec3 point = position;
         float reach = params.radiusPixels * pixelFootprint(centre);
 #else
         vec3 point = position + offset * params.radius;
         // A point behind the eye falls on no pixel.
         if (!view.orthographic && point.z > -1e-3 * centre) continue;
-        vec2 at = pixelOf(point);
+        ivec2 tap = pixelOf(point);
         float reach = params.radius;
-#endif
-        ivec2 tap = ivec2(floor(at));
-#ifdef RADIUS_IN_IMAGE
-        tap = clamp(tap, ivec2(0), view.size - 1);
-#else
         if (!insideRegion(tap)) continue;
 #endif
         if (tap == pixel) continue;

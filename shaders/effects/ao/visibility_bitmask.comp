@@ -64,7 +64,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
 #endif
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
-        ivec2 tap = ivec2(floor(vec2(pixel) + 0.5 + direction * reach));
+        ivec2 tap = pixelFrom(pixel, direction * reach);
         if (tap == pixel || !insideRegion(tap)) continue;
         float there = texelFetch(depth, tap, 0).r;
         vec3 offset = viewPosition(tap, there) - position;

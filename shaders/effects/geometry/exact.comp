@@ -78,7 +78,7 @@ void writeBackground() {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    uvec2 id = texelFetch(visibility, pixel * view.raster + view.placeOnRaster, 0).xy;
+    uvec2 id = texelFetch(visibility, (pixel + view.placeInCanvas) * view.raster + view.placeOnRaster, 0).xy;
     if (id.x == 0u) {
         writeBackground();
         return;

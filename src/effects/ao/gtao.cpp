@@ -54,7 +54,8 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "gtao";
-    pass.reads = {{"depth", inputs.depth, graph.view().haloOf(radius), true}, {"normal", inputs.normal}};
+    const int halo = graph.view().haloOf(radius);
+    pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)}, {"normal", inputs.normal}};
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
     pass.params = paramsBlock(kConstants, Constants{static_cast<float>(radius), params.stepGrowth, params.strength, {std::cos(turn), std::sin(turn)}});

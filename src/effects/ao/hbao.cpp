@@ -76,7 +76,8 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "hbao";
-    pass.reads = {{"depth", inputs.depth, params.clampTaps ? 0 : graph.view().haloOf(graph.view().normalized(params.radius)), true}, {"normal", inputs.normal}};
+    const int halo = params.clampTaps ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
+    pass.reads = {{"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, params.falloff);

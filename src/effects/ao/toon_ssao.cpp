@@ -92,7 +92,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.name = "toon_ssao";
     // The paper clamps taps to the picture's border.
     const int halo = params.radiusIn == RadiusIn::image ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
-    pass.reads = {{"depth", graph.read(aov::depth), halo, true}};
+    pass.reads = {{"depth", graph.read(aov::depth), halo, params.radiusIn == RadiusIn::image || !graph.view().holds(halo)}};
     if (params.kernel == ToonKernel::hemisphere) pass.reads.push_back({"normal", graph.read(aov::normalGeometric)});
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));

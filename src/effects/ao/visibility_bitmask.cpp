@@ -69,7 +69,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "visibility_bitmask";
-    pass.reads = {{"depth", inputs.depth, halo, true}, {"normal", inputs.normal, params.join ? halo : 0, params.join}};
+    pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)}, {"normal", inputs.normal, params.join ? halo : 0, params.join && !graph.view().holds(halo)}};
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
     pass.params = paramsBlock(kConstants, Constants{static_cast<float>(radius), static_cast<float>(params.thickness * radius), params.joinWithin, params.stepGrowth, params.strength, {std::cos(turn), std::sin(turn)}});
