@@ -327,3 +327,72 @@ class Scene:
         with open(os.path.join(self.folder, "scene.toml"), "w") as f:
             f.write(text)
         print("%s: %d meshes, %d instances, %d materials" % (self.folder, len(self.meshes), len(self.instances), len(self.materials)))
+
+
+def block(width, height, depth, material):
+    """A box with sharp edges, standing on y = 0."""
+    x, z = width / 2, depth / 2
+    return prism([(-x, z), (x, z), (x, -z), (-x, -z)], height, material)
+
+
+def prism(outline, height, material, base=0.0):
+    """Walls of a height over an outline of (x, z), counter-clockwise seen from above (x right, z towards the viewer), with a floor and a top."""
+    mesh = Mesh()
+    count = len(outline)
+    low = [mesh.point((x, base, z)) for x, z in outline]
+    high = [mesh.point((x, base + height, z)) for x, z in outline]
+    t = mesh.uv(0, 0)
+    for i in range(count):
+        j = (i + 1) % count
+        mesh.face([(low[i], t), (low[j], t), (high[j], t), (high[i], t)], material)
+    mesh.face([(p, t) for p in high], material)
+    mesh.face([(p, t) for p in reversed(low)], material)
+    return mesh
+
+
+def wall(length, height, thickness, material, openings=(), reveal=None, gable=0.0):
+    """A wall along x, from 0 to `length`, its middle on z = 0, standing on y = 0, closed all around. `openings`: (x, y, width, height). `gable`: height
+    of a triangle on top."""
+    xs = sorted({0.0, length} | {v for x, y, w, h in openings for v in (x, x + w)} | ({length / 2} if gable else set()))
+    ys = sorted({0.0, height} | {v for x, y, w, h in openings for v in (y, y + h)})
+    z = thickness / 2
+
+    def solid(i, j):
+        if not (0 <= i < len(xs) - 1 and 0 <= j < len(ys) - 1):
+            return False
+        cx, cy = (xs[i] + xs[i + 1]) / 2, (ys[j] + ys[j + 1]) / 2
+        return not any(x < cx < x + w and y < cy < y + h for x, y, w, h in openings)
+
+    mesh = Mesh()
+    t = mesh.uv(0, 0)
+
+    def quad(points, paint):
+        mesh.face([(mesh.point(p), t) for p in points], paint)
+
+    for i in range(len(xs) - 1):
+        for j in range(len(ys) - 1):
+            if not solid(i, j):
+                continue
+            x0, x1, y0, y1 = xs[i], xs[i + 1], ys[j], ys[j + 1]
+            quad([(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)], material)
+            quad([(x1, y0, -z), (x0, y0, -z), (x0, y1, -z), (x1, y1, -z)], material)
+            inside = reveal or material
+            if not solid(i - 1, j):
+                quad([(x0, y0, -z), (x0, y0, z), (x0, y1, z), (x0, y1, -z)], inside if i > 0 else material)
+            if not solid(i + 1, j):
+                quad([(x1, y0, z), (x1, y0, -z), (x1, y1, -z), (x1, y1, z)], inside if i < len(xs) - 2 else material)
+            if not solid(i, j - 1):
+                quad([(x0, y0, -z), (x1, y0, -z), (x1, y0, z), (x0, y0, z)], inside if j > 0 else material)
+            if not solid(i, j + 1) and not (gable and j == len(ys) - 2):
+                quad([(x0, y1, z), (x1, y1, z), (x1, y1, -z), (x0, y1, -z)], inside if j < len(ys) - 2 else material)
+    if gable:
+        top = lambda x: height + gable * (1 - abs(x - length / 2) / (length / 2))
+        # Fans over the wall's own points, so that nothing gapes.
+        for left, right in zip(xs, xs[1:]):
+            front = [(left, height, z), (right, height, z)]
+            front += [(right, top(right), z)] if top(right) > height else []
+            front += [(left, top(left), z)] if top(left) > height else []
+            quad(front, material)
+            quad([(x, y, -z) for x, y, _ in reversed(front)], material)
+            quad([(left, top(left), z), (right, top(right), z), (right, top(right), -z), (left, top(left), -z)], material)
+    return mesh
