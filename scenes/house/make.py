@@ -26,8 +26,8 @@ shift = [0.0, 0.08]
 
 [[camera]]
 name = "garden"
-position = [-15, 6.5, 17]
-look_at = [0.3, 2.6, 0]
+position = [-14, 7.5, 23]
+look_at = [0.6, 2.9, 0]
 focal_length = 38
 
 [[camera]]

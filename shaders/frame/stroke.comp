@@ -3,12 +3,18 @@
 #include "lib/space.glsl"
 #include "lib/lines.glsl"
 
-#ifndef ONE_LOOK
-// Colour, and half of the width in pixels, by why there is a line.
-vec4 styleOf(uint source) {
-    return source == SILHOUETTE ? params.silhouette : source == CREASE ? params.crease : source == OBJECT ? params.object : source == MATERIAL ? params.material : params.section;
-}
+// Half of the width in pixels, by why there is a line.
+float halfWidthOf(uint source) {
+#ifdef ONE_LOOK
+    return params.silhouette.a;
+#else
+    return source == SILHOUETTE ? params.silhouette.a : source == CREASE ? params.crease.a : source == OBJECT ? params.object.a : source == MATERIAL ? params.material.a : params.section.a;
 #endif
+}
+
+vec3 colorOf(uint source) {
+    return source == SILHOUETTE ? params.silhouette.rgb : source == CREASE ? params.crease.rgb : source == OBJECT ? params.object.rgb : source == MATERIAL ? params.material.rgb : params.section.rgb;
+}
 
 // The share of a pixel that lies on the near side of a straight line whose distance from the pixel's centre, towards its far side, is s. The
 // pixel's shadow on the line's unit normal n is a trapezium; this is the area of its part.
@@ -51,35 +57,35 @@ Seen see(uvec2 code, vec2 fromCorner) {
 // What covers the pixel: colour, and opacity there.
 vec4 top = vec4(0), rest = vec4(0);
 
-#ifdef ONE_LOOK
-// All lines look the same: the nearest decides.
-Seen nearest;
-float nearestSquared = 1e9;
+#ifdef ONE_COLOR
+// All lines are of one colour: the one that reaches farthest over the pixel decides.
+Seen best;
+float farthest = -1e9, bestHalf = 0.0;
 
 void add(Seen seen) {
-    float squared = dot(seen.away, seen.away);
-    if (squared < nearestSquared) nearest = seen, nearestSquared = squared;
+    float halfWidth = halfWidthOf(sourceOf(seen.code)) * thicknessOf(seen.code), reach = halfWidth - length(seen.away);
+    if (reach > farthest) best = seen, farthest = reach, bestHalf = halfWidth;
 }
 
 void finish() {
-    if (nearestSquared < 1e9) top = vec4(params.look.rgb, coverageOf(nearest.away, nearest.along, nearest.within, params.look.a * thicknessOf(nearest.code)) * strengthOf(nearest.code));
+    if (farthest > -2.0) top = vec4(params.silhouette.rgb, coverageOf(best.away, best.along, best.within, bestHalf) * strengthOf(best.code));
 }
 #else
 float topWidth = 0.0;
 
 // The widest line lies on top of the others. Of pieces of one line the strongest counts, since pieces of one line join.
 void add(Seen seen) {
-    vec4 style = styleOf(sourceOf(seen.code));
-    vec4 ink = vec4(style.rgb, coverageOf(seen.away, seen.along, seen.within, style.w * thicknessOf(seen.code)) * strengthOf(seen.code));
+    float halfWidth = halfWidthOf(sourceOf(seen.code));
+    vec4 ink = vec4(colorOf(sourceOf(seen.code)), coverageOf(seen.away, seen.along, seen.within, halfWidth * thicknessOf(seen.code)) * strengthOf(seen.code));
 #ifdef WITH_RECORDS
     LineRecord own = lineRecordAt(recordOf(seen.code));
     if (own.hasColor) ink.rgb = own.color;
 #endif
-    bool same = style.w == topWidth && ink.rgb == top.rgb, wider = ink.a > 0.0 && style.w > topWidth;
+    bool same = halfWidth == topWidth && ink.rgb == top.rgb, wider = ink.a > 0.0 && halfWidth > topWidth;
     vec4 below = wider ? top : ink;
     if (!same && below.a > rest.a) rest = below;
     if (wider || (same && ink.a > top.a)) top = ink;
-    if (wider) topWidth = style.w;
+    if (wider) topWidth = halfWidth;
 }
 
 void finish() {}

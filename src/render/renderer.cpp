@@ -458,8 +458,12 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
             }
         }
         if (options.onBand) {
-            for (std::size_t i = 0; i < band.size(); ++i) result.layers[i].image = std::move(band[i]);
-            options.onBand(result);
+            // A few rows at a time: what is made of them on their way into files is then small.
+            constexpr int kRows = 128;
+            for (int top = 0; top < band.front().height; top += kRows) {
+                for (std::size_t i = 0; i < band.size(); ++i) result.layers[i].image = crop(band[i], {{0, top}, {band[i].width, std::min(kRows, band[i].height - top)}});
+                options.onBand(result);
+            }
             for (auto& layer : result.layers) layer.image = {};
             continue;
         }

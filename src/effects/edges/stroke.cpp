@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace limn {
 namespace edges_stroke {
 
 struct Constants {
-    glm::vec4 silhouette{0}, crease{0}, object{0}, material{0}, section{0}, look{0};
+    glm::vec4 silhouette{0}, crease{0}, object{0}, material{0}, section{0};
     float opacity = 1;
     int window = 1;
 };
@@ -19,7 +20,6 @@ constexpr Field kConstants[] = {
     field<&Constants::object>("object", {.doc = "The same where objects meet."}),
     field<&Constants::material>("material", {.doc = "The same where materials meet."}),
     field<&Constants::section>("section", {.doc = "The same around the cut faces of sections."}),
-    field<&Constants::look>("look", {.doc = "The same of all lines, where they look the same."}),
     field<&Constants::opacity>("opacity", {.doc = "Of all lines."}),
     field<&Constants::window>("window", {.unit = "pixels", .doc = "How far lines can matter."}),
 };
@@ -48,13 +48,13 @@ glm::vec4 pack(const LineStyle& style) { return {style.color.r, style.color.g, s
 void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     using namespace edges_stroke;
     const bool records = graph.scene().lineRecords;
-    // Lines of one width and colour need no sorting.
-    bool oneLook = !records;
-    LineStyle widest;
-    for (const auto* style : {&stroke.silhouette, &stroke.crease, &stroke.object, &stroke.material, &stroke.section}) {
-        oneLook = oneLook && (style->width <= 0 || widest.width <= 0 || widest == *style);
-        if (style->width > widest.width) widest = *style;
-    }
+    // Lines of one colour, or even of one width, need less sorting. Styles that are not drawn look as any other.
+    std::array<LineStyle, 5> styles{stroke.silhouette, stroke.crease, stroke.object, stroke.material, stroke.section};
+    const LineStyle widest = *std::max_element(styles.begin(), styles.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
+    for (auto& style : styles)
+        if (style.width <= 0) style = widest;
+    const bool oneColor = !records && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style.color == widest.color; });
+    const bool oneLook = !records && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style == widest; });
     // A line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel beside the centre of its own.
     const int window = static_cast<int>(std::ceil((stroke.side == LineSide::both ? widest.width / 2 : widest.width) + 1));
     const std::string suffix = graph.layerSuffix();
@@ -99,11 +99,12 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     graph.add(std::move(join));
 
     Pass draw = pass("stroke", {mask, {"first", first, window}, {"second", second, window}}, {}, fmt::format("{} cells per pixel near lines", 4 * window * window));
+    if (oneColor) draw.defines.emplace_back("ONE_COLOR", "");
     if (oneLook) draw.defines.emplace_back("ONE_LOOK", "");
     if (stroke.side != LineSide::both) draw.defines.emplace_back("ONE_SIDE", stroke.side == LineSide::inner ? "1" : "-1");
     if (records) draw.defines.emplace_back("WITH_RECORDS", "");
     draw.needs = SceneData::positions;
-    draw.params = paramsBlock(kConstants, Constants{pack(stroke.silhouette), pack(stroke.crease), pack(stroke.object), pack(stroke.material), pack(stroke.section), pack(widest), stroke.opacity, window});
+    draw.params = paramsBlock(kConstants, Constants{pack(styles[0]), pack(styles[1]), pack(styles[2]), pack(styles[3]), pack(styles[4]), stroke.opacity, window});
     if (const auto below = graph.find(aov::edges)) {
         // Away from this layer's lines the layers below must stay.
         draw.reads.push_back({"layersBelow", *below});
