@@ -49,6 +49,18 @@ def main():
     obj("shapes", floor + [sphere("coarse sphere", (-2.1, 0.9, 0), 0.9, 16), box("block", (-0.5, 0, -1), (1.1, 0.8, 0.6)), box("step", (-0.5, 0.8, -1), (0.3, 1.1, 0.6))]
         + [box("slat", (1.9 + 0.22 * i, 0, -0.5), (1.95 + 0.22 * i, 1.5, -0.45)) for i in range(8)]
         + [box("rail", (1.8, 1.5, -0.55), (3.6, 1.58, -0.4)), box("card", (-3.6, 0.6, -3.1), (-2.4, 2.2, -3.08)), box("wedge", (3.4, 0, 0.8), (4.6, 0.35, 2.4))])
+    half, bar = 1.0, 0.36
+    ends = ((-half, -half + bar), (half - bar, half))
+    bars = []
+    for one in ends:
+        for other in ends:
+            bars.append(box("bar", (-half, one[0] + half, other[0]), (half, one[1] + half, other[1])))
+            bars.append(box("bar", (one[0], 0, other[0]), (one[1], 2 * half, other[1])))
+            bars.append(box("bar", (one[0], other[0] + half, -half), (one[1], other[1] + half, half)))
+    obj("hollow_cube", bars)
+    # A board that leans away from a wall: the gap behind its edges grows from left to right.
+    board = [(-3, 0.0, 0.0), (3, 0.0, 1.2), (3, 1.6, 1.2), (-3, 1.6, 0.0)]
+    obj("wedge", [box("wall", (-4, -1, -0.1), (4, 4, 0)), ("board", board, [(0, 1, 2, 3)])])
     obj("ground", [("ground", [(-40, 0, 40), (40, 0, 40), (40, 0, -40), (-40, 0, -40)], [(0, 1, 2, 3)])])
 
 

@@ -460,9 +460,10 @@ class Exporter:
                 path = texture_path(image, self.folder, self.taken_textures, self.left_out)
                 if path:
                     lines.append("texture = " + quoted(path))
+            # Blender's own default is a transparent black: whoever wants black lines gives them some opacity.
+            if tuple(material.line_color) != (0.0, 0.0, 0.0, 0.0):
+                lines.append("line_color = " + vector([max(0.0, c) for c in tuple(material.line_color)[:3]]))
             self.materials[material.name] = lines
-            if tuple(material.line_color)[:3] != (0.0, 0.0, 0.0):
-                self.left_out.add("line colour", material.name)
         return material.name
 
     # The files.

@@ -144,6 +144,9 @@ add("Sun", sun, Euler((0.7, 0.2, 0.4)).to_matrix().to_4x4())
 area = bpy.data.lights.new("Window", "AREA")
 add("Window", area)
 
+inked = bpy.data.materials.new("inked")
+inked.line_color = (0.8, 0.1, 0.05, 1)
+next(o for o in scene.objects if o.type == "MESH").data.materials.append(inked)
 exporter.export(bpy.context, out)
 
 # Blender's own evaluation, at the render levels.

@@ -88,6 +88,19 @@ TEST_F(RoundTrip, pointsAndUvsAreBlenders) {
     EXPECT_EQ(compared, 8);
 }
 
+TEST_F(RoundTrip, lineColoursComeAlong) {
+    const LoadedScene loaded = loadScene(folder() / "scene.toml");
+    int inked = 0;
+    for (const auto& material : loaded.scene.materials) {
+        EXPECT_EQ(material.base.lineColor.given, material.base.name == "inked") << material.base.name;
+        if (material.base.name != "inked") continue;
+        ++inked;
+        EXPECT_NEAR(material.base.lineColor.color.r, 0.8, 1e-4);
+        EXPECT_NEAR(material.base.lineColor.color.g, 0.1, 1e-4);
+    }
+    EXPECT_EQ(inked, 1);
+}
+
 TEST_F(RoundTrip, outlinesAreBlendersWithinAPixel) {
     for (const char* camera : {"plain", "shifted", "upright_sensor", "orthographic"}) {
         ConfigOverrides overrides;
