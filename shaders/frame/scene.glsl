@@ -9,10 +9,10 @@ layout(binding = 9) uniform usamplerBuffer triangleNormals;  // per triangle: it
 layout(binding = 10) uniform samplerBuffer uvs;
 layout(binding = 11) uniform usamplerBuffer triangleUvs;     // per triangle: its three uvs
 layout(binding = 12) uniform usamplerBuffer words;      // numbers of materials and parts; see Instance
-layout(binding = 13) uniform usamplerBuffer instances;  // eleven texels per instance; see below
+layout(binding = 13) uniform usamplerBuffer instances;  // twelve texels per instance; see below
 layout(binding = 14) uniform samplerBuffer materials;   // five texels per material
 
-const int INSTANCE_TEXELS = 11;
+const int INSTANCE_TEXELS = 12;
 const uint NO_WORDS = 0xffffffffu;
 
 struct Instance {
@@ -25,6 +25,8 @@ struct Instance {
     uint firstNormal;       // of the mesh, in normals
     uint firstUv;           // of the mesh, in uvs
 };
+
+uint triangleCountOf(uint number) { return texelFetch(instances, int(number) * INSTANCE_TEXELS + 11).x; }
 
 Instance instanceAt(uint number) {
     int at = int(number) * INSTANCE_TEXELS;

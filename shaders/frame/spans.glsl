@@ -39,16 +39,36 @@ vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
 
 uint objectSeen(uvec2 seen) { return triangleObject(instanceAt(seen.x - 1u), seen.y); }
 
+// Do two triangles of an instance have two corners in common? Corners are stored anew for some triangles: places decide.
+bool shareEdge(uint number, uint one, uint other) {
+    Instance instance = instanceAt(number);
+    ivec3 a = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + one)).xyz), b = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + other)).xyz);
+    vec3 a0 = texelFetch(positions, a.x).xyz, a1 = texelFetch(positions, a.y).xyz, a2 = texelFetch(positions, a.z).xyz;
+    int alike = 0;
+    for (int i = 0; i < 3; ++i) {
+        vec3 p = texelFetch(positions, b[i]).xyz;
+        alike += int(p == a0 || p == a1 || p == a2);
+    }
+    return alike >= 2;
+}
+
 // How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
 //
-// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre;
-// where it is, it is seen close by. Without `goOn` the triangle's own end counts.
+// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre:
+// it may be the other half of the same polygon, which has the next number or the one before; else it is seen close by, if anywhere. Without `goOn` the triangle's own end counts.
 float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     uvec2 seen = seenAt(pixel);
+    uvec2 lastSeen = seen;
     vec2 last = spanOf(seen, pixel, way);
     float reach = clamp(last.y, 0.0, 1.0);
     if (!goOn) return reach;
     ivec2 across = ivec2(way.y, way.x);
+    for (int i = -1; i <= 1; i += 2) {
+        uint neighbour = uint(int(seen.y) + i);   // below 0 it wraps to a large number
+        if (reach >= 1.0 || neighbour >= triangleCountOf(seen.x - 1u) || !shareEdge(seen.x - 1u, seen.y, neighbour)) continue;
+        vec2 span = spanOf(uvec2(seen.x, neighbour), pixel, way);
+        if (span.x <= reach + 0.01 && span.y > reach) last = span, lastSeen.y = neighbour, reach = min(span.y, 1.0);
+    }
     for (int i = 0; i < 4; ++i) {
         ivec2 near = pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across);
         uvec2 other = seenAt(near);
@@ -56,9 +76,11 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
         if (!isNext || objectSeen(other) != objectSeen(seen)) continue;
         vec2 span = spanOf(other, pixel, way);
         // Neighbours share an edge, so that one begins where the other ends: but for rounding.
-        if (span.x <= reach + 0.01 && span.y > reach) last = span, reach = min(span.y, 1.0);
+        if (span.x <= reach + 0.01 && span.y > reach) last = span, lastSeen = other, reach = min(span.y, 1.0);
     }
-    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way.
-    if (last.y - last.x < 0.75) reach = 0.5 * (reach + 1.0);
+    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way. (Not so beyond a face seen nearly
+    // edge-on, which is thin but long.)
+    vec2 beside = spanOf(lastSeen, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), across);
+    if (last.y - last.x < 0.75 && beside.y - beside.x < 1.5) reach = 0.5 * (reach + 1.0);
     return reach;
 }

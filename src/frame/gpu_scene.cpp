@@ -20,14 +20,15 @@ namespace {
 enum Unit { positionsUnit = 6, trianglesUnit, normalsUnit, triangleNormalsUnit, uvsUnit, triangleUvsUnit, wordsUnit, instancesUnit, materialsUnit, atlasUnit };
 constexpr int kLightsBinding = 2;
 
-// One instance, as shaders/frame/scene.glsl fetches it: eleven texels of sixteen bytes.
+// One instance, as shaders/frame/scene.glsl fetches it: twelve texels of sixteen bytes.
 struct GpuInstance {
     double meshFromView[3][4];
     float viewFromMesh[3][4];
     std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
     std::uint32_t materialWords, partWords, firstNormal, firstUv;
+    std::uint32_t triangleCount, padding[3];
 };
-static_assert(sizeof(GpuInstance) == 11 * 16);
+static_assert(sizeof(GpuInstance) == 12 * 16);
 
 // Five texels.
 struct GpuMaterial {
@@ -357,6 +358,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
         }
         gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
         gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.firstNormal = place.firstNormal, gpu.firstUv = place.firstUv;
+        gpu.triangleCount = place.triangleCount;
         instances.push_back(gpu);
     }
     const auto bytes = bytesOf(instances);

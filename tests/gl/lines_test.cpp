@@ -235,6 +235,35 @@ TEST(Lines, ofATurningEdgeShowNoSteps) {
         }
 }
 
+TEST(Lines, ofLongThinFacesAreStraight) {
+    // Near its ends the diagonal of a long face lies within a pixel of its edge: between them lies a triangle that no pixel's centre sees.
+    for (const double degrees : {0.0, 0.4, 3.0, 17.0, 40.0})
+        for (const bool flipped : {false, true}) {
+            const LoadedScene scene = makeScene(fmt::format("[[mesh]]\nname = 'q'\nfile = 'q.obj'\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 2\n[[instance]]\nmesh = 'q'\nrotate = [0, 0, {}]\nscale = [{}, 1, 1]\ntranslate = [0.0037, 0.0021, 0]\n", degrees, flipped ? -1 : 1),
+                                                {{"q.obj", "v -0.06 -0.85 0\nv 0.06 -0.85 0\nv 0.06 0.85 0\nv -0.06 0.85 0\nf 1 2 3 4\n"}});
+            constexpr int size = 240;
+            const Picture p = draw(makeConfig(fmt::format("[image]\nsize = [{}, {}]\nsamples = 1\n[[edges]]\ntechnique = 'depth_normal'\nwidth = '1.5px'\n[output]\naovs = ['edges']\n", size, size)), scene);
+            const double angle = glm::radians(degrees), c = std::cos(angle), s = std::sin(angle), scale = size / 2.0;
+            int rows = 0;
+            for (const double side : {-0.06, 0.06})
+                for (int y = 0; y < size; ++y) {
+                    // Along the long edge, from end to end, but for what the short edges cover.
+                    const double up = (size / 2.0 - (y + 0.5)) / scale - 0.0021, along = (up - side * s) / c;
+                    if (std::abs(along) > 0.85 - 8 / scale) continue;
+                    const double expected = size / 2.0 + (0.0037 + side * c - along * s) * scale;
+                    double sum = 0, moment = 0;
+                    for (int x = static_cast<int>(expected) - 4; x <= expected + 4; ++x) {
+                        const double alpha = static_cast<double>(p.aov("edges").at(x, y)[3]);
+                        sum += alpha, moment += alpha * (x + 0.5);
+                    }
+                    EXPECT_NEAR(moment / sum, expected, 0.125) << degrees << " degrees, row " << y;
+                    EXPECT_NEAR(sum * c, 1.5, 0.075) << degrees << " degrees, row " << y;
+                    ++rows;
+                }
+            EXPECT_GT(rows, 300);
+        }
+}
+
 TEST(Lines, areAsWideInMillimetresAtEveryResolution) {
     // Straight, curved and crossing lines at 1, 2 and 4 times the resolution, and supersampled: ink over length is the same width on paper.
     const LoadedScene curved = makeScene("[[mesh]]\nname = 's'\nfile = 's.obj'\n" + cameraToml({0, 0, 9}, {0, 0, 0}, "orthographic_height = 3"), {{"s.obj", sphereObj(1, 256)}});
