@@ -164,7 +164,7 @@ TEST(Sections, showFilledFacesUnderHeavierLines) {
     EXPECT_EQ(without, 0);
     EXPECT_EQ(with, 40 * 40);
     EXPECT_NEAR(thin, 160, 2);
-    EXPECT_NEAR(thick, 3 * 160, 4) << "three times as heavy";
+    EXPECT_NEAR(thick, 3 * 160, 8) << "three times as heavy, but for its round corners";
     EXPECT_THROW(red("sections = ['B']\n"), Error);
 }
 
