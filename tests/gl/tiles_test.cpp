@@ -32,21 +32,22 @@ TEST(Tiles, ofAnySizeMakeTheSamePicture) {
                                  "technique = 'ray_traced'\nradius = 0.5\nfilter = { technique = 'plane_aware' }", "technique = 'depth_tangent'", "technique = 'visibility_bitmask'\nradius = 0.3"})
         for (const int samples : {1, 4}) {
             // Seen in perspective, what passes the eye makes radii boundless, and techniques with a radius look at everything: tiles are whole then.
+            if (samples == 1 && ao.find("gtao") == std::string::npos) continue;   // more samples show more
             const bool parallel = ao.find("radius = 0.3") != std::string::npos;
             const auto at = [&](int tile, const RenderOptions& options = {}) {
-                // 211 × 163: no multiple of anything.
-                return draw(makeConfig(kEverything + "[ao]\n" + ao + fmt::format("\n[image]\nsize = [211, 163]\nguard = 1\nsamples = {}\ntile = {}\n", samples, tile)), mixed(parallel ? "orthographic_height = 5" : "fov = 60"), options);
+                // 151 × 123: no multiple of anything.
+                return draw(makeConfig(kEverything + "[ao]\n" + ao + fmt::format("\n[image]\nsize = [151, 123]\nguard = 1\nsamples = {}\ntile = {}\n", samples, tile)), mixed(parallel ? "orthographic_height = 5" : "fov = 60"), options);
             };
             const Picture whole = at(4096);
-            for (const int tile : {0, 200, 128, 100, 40}) {
+            for (const int tile : {0, 128, 100, 64, 32}) {
                 const Picture tiled = at(tile);
                 for (const auto& layer : whole.frame.layers) EXPECT_EQ(differing(layer.image, tiled.aov(layer.name)), 0u) << ao << ": " << layer.name << " in tiles of " << tile << ", " << samples << " samples";
             }
             int bands = 0;
             RenderOptions counting;
             counting.onBand = [&](const RenderedFrame&) { ++bands; };
-            renderer().render(makeConfig(kEverything + "[ao]\n" + ao + "\n[image]\nsize = [211, 163]\nguard = 1\nsamples = 1\ntile = 40\n"), mixed(parallel ? "orthographic_height = 5" : "fov = 60"), 1, counting);
-            EXPECT_EQ(bands, 5) << "there were tiles at all: " << ao;
+            renderer().render(makeConfig(kEverything + "[ao]\n" + ao + "\n[image]\nsize = [151, 123]\nguard = 1\nsamples = 1\ntile = 32\n"), mixed(parallel ? "orthographic_height = 5" : "fov = 60"), 1, counting);
+            EXPECT_EQ(bands, 4) << "there were tiles at all: " << ao;
             // And a part of the picture is a part of the picture.
             RenderOptions part;
             part.crop = {{37, 21}, {90, 70}};
