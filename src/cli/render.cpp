@@ -1,5 +1,6 @@
 // limn render: configs to pictures.
 
+#include "render/frame_files.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"

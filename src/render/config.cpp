@@ -208,7 +208,7 @@ private:
 
     bool available(const Aov& aov) const {
         if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw || &aov == &aov::ambientOcclusionError) return config_.ao.has_value();
-        if (&aov == &aov::depthTangent) return (config_.ao && config_.ao->technique->name == "depth_tangent") || std::any_of(config_.edges.begin(), config_.edges.end(), [](const auto& layer) { return layer.technique->name == "depth_tangent"; });
+        if (&aov == &aov::depthTangent) return config_.ao.has_value() || !config_.edges.empty();   // whether they make it, their plan tells
         if (&aov == &aov::edges) return !config_.edges.empty();
         return true;
     }

@@ -1,11 +1,9 @@
 #include "render/renderer.h"
 
-#include "base/file.h"
 #include "base/install.h"
-#include "base/log.h"
 #include "base/text.h"
 #include "frame/directions.h"
-#include "geometry/section.h"
+#include "render/cutting.h"
 #include "render/edge_rates.h"
 
 #include <fmt/format.h>
@@ -126,47 +124,18 @@ std::string cpuFeatures() {
 
 SceneData neededData(const Plan& a, const std::optional<FramePlan>& b) { return b ? a.sceneData | b->plan.sceneData : a.sceneData; }
 
-/// Cuts every instance that a section reaches; it then has a mesh of its own.
-void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds& needs, std::vector<TriMesh>& meshes, std::vector<int>& meshOf) {
-    std::vector<TriMesh> cut(scene.instances.size());
-    std::vector<char> isOwn(scene.instances.size());
-    std::vector<std::size_t> open(scene.instances.size());
-    tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) {
-        const DrawInstance& instance = scene.instances[i];
-        const TriMesh* mesh = &meshes[static_cast<std::size_t>(meshOf[i])];
-        const PolyMesh& poly = loaded.meshes[static_cast<std::size_t>(instance.mesh)].poly;
-        const glm::dmat3 linear(instance.worldFromMesh);
-        const glm::dvec3 pivot(instance.worldFromMesh * glm::dvec4(mesh->pivot, 1));
-        for (std::size_t s = 0; s < scene.sections.size(); ++s) {
-            const SectionPlane& section = scene.sections[s];
-            const CutPlane plane{glm::transpose(linear) * section.normal, glm::dot(section.normal, pivot - section.point), static_cast<std::uint32_t>(poly.materialNames.size() + s), static_cast<std::uint32_t>(poly.partNames.size())};
-            if (!isCut(*mesh, plane)) continue;
-            CutMesh done = cutMesh(*mesh, plane, needs);
-            open[i] += done.openOutlines;
-            cut[i] = std::move(done.mesh);
-            mesh = &cut[i];
-            isOwn[i] = true;
-        }
-        if (isOwn[i] && !needs.unified) numberByLastVertex(cut[i]);
-    });
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        if (open[i] > 0) log::warning("object '{}' is not closed where a section cuts it: {} outline{} without a cut face", scene.instances[i].name, open[i], open[i] == 1 ? "" : "s");
-        if (!isOwn[i]) continue;
-        meshOf[i] = static_cast<int>(meshes.size());
-        meshes.push_back(std::move(cut[i]));
-    }
-    // What only cut instances showed is no longer needed.
-    std::vector<char> used(meshes.size());
-    for (const int mesh : meshOf) used[static_cast<std::size_t>(mesh)] = true;
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        if (!used[m]) meshes[m] = {};
-}
-
 /// Large pictures are made of blocks, each drawn with triangles of its own: below every driver's limit, and small enough for memory. They are part of
 /// what a picture is: tiles of any size give the same bits.
 int largestBlockSide(glm::ivec2 size) { return std::max(size.x, size.y) <= 4096 ? 4096 : 2048; }
 
-std::vector<std::pair<int, int>> spans(int length, int most);
+/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: what is drawn at half the size keeps its place.
+std::vector<std::pair<int, int>> spans(int length, int most) {
+    const int count = (length + most - 1) / most;
+    const int step = std::min((((length + count - 1) / count) + 3) / 4 * 4, std::max(most, 4));
+    std::vector<std::pair<int, int>> result;
+    for (int at = 0; at < length; at += step) result.emplace_back(at, std::min(at + step, length));
+    return result;
+}
 
 glm::ivec2 largestBlock(glm::ivec2 size) {
     const auto first = [&](int length) { return spans(length, largestBlockSide(size)).front().second; };
@@ -233,15 +202,6 @@ int chooseTileSize(const RenderConfig& config, const FramePlans& plans, glm::ive
     const glm::dvec2 around = block + 2 * plans.guard;
     if (around.x * around.y <= pixels) return whole;
     return std::clamp((static_cast<int>(std::sqrt(pixels)) - 2 * plans.guard) / 4 * 4, 256, std::max(whole, 256));
-}
-
-/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: what is drawn at half the size keeps its place.
-std::vector<std::pair<int, int>> spans(int length, int most) {
-    const int count = (length + most - 1) / most;
-    const int step = std::min((((length + count - 1) / count) + 3) / 4 * 4, std::max(most, 4));
-    std::vector<std::pair<int, int>> result;
-    for (int at = 0; at < length; at += step) result.emplace_back(at, std::min(at + step, length));
-    return result;
 }
 
 }  // namespace
@@ -475,66 +435,6 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     }
     watch.lap("draw");
     return result;
-}
-
-FrameWriter::FrameWriter(std::filesystem::path path, const EncodeOptions& options, int height) : path_(std::move(path)), options_(options), height_(height) {
-    if (!fileFormat(path_)) throw Error(ExitCode::usage, {path_.string()}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
-}
-
-void FrameWriter::add(const RenderedFrame& band) {
-    const FileFormat format = *fileFormat(path_);
-    if (isMultiLayer(format)) {
-        if (files_.empty()) files_.push_back({path_, openEncoder(format, band.layers, height_, band.metadata, options_)});
-        files_.front().encoder->add(band.layers);
-        return;
-    }
-    for (std::size_t i = 0; i < band.layers.size(); ++i) {
-        const Layer& layer = band.layers[i];
-        const bool isMain = layer.name == "beauty";
-        // Numbers that 8 bits would ruin stay numbers.
-        const bool exact = !isMain && ((!layer.isColour && layer.image.channels != 1) || layer.isInteger || layer.name == "depth");
-        // An opaque picture needs no alpha channel.
-        Layer picture;
-        if (isMain && band.opaque) {
-            picture = {layer.name, {"R", "G", "B"}, layer.isColour, layer.isInteger, {layer.image.width, layer.image.height, 3, {}}};
-            picture.image.pixels.reserve(layer.image.pixels.size() / 4 * 3);
-            for (std::size_t p = 0; p < layer.image.pixels.size(); p += 4) picture.image.pixels.insert(picture.image.pixels.end(), {layer.image.pixels[p], layer.image.pixels[p + 1], layer.image.pixels[p + 2]});
-        }
-        const std::span<const Layer> written(isMain && band.opaque ? &picture : &layer, 1);
-        if (files_.size() == i) {
-            std::filesystem::path to = path_;
-            if (!isMain) to.replace_extension("." + layer.name + (exact ? ".exr" : path_.extension().string()));
-            files_.push_back({to, openEncoder(exact ? FileFormat::exr : format, written, height_, band.metadata, options_)});
-        }
-        files_[i].encoder->add(written);
-    }
-}
-
-std::vector<std::filesystem::path> FrameWriter::finish() {
-    std::vector<std::filesystem::path> written;
-    for (auto& file : files_) {
-        replaceFile(file.path, file.encoder->finish());
-        written.push_back(file.path);
-    }
-    return written;
-}
-
-std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options) {
-    FrameWriter writer(path, options, frame.layers.front().image.height);
-    writer.add(frame);
-    return writer.finish();
-}
-
-bool hasFrameNumber(const std::filesystem::path& pattern) { return pattern.string().find('#') != std::string::npos; }
-
-std::filesystem::path framePath(const std::filesystem::path& pattern, int frame) {
-    std::string text = pattern.string();
-    const auto first = text.find('#');
-    if (first == std::string::npos) return pattern;
-    auto last = first;
-    while (last < text.size() && text[last] == '#') ++last;
-    const std::string digits = fmt::format("{:0{}}", std::abs(frame), last - first);
-    return text.replace(first, last - first, (frame < 0 ? "-" : "") + digits);
 }
 
 }  // namespace limn

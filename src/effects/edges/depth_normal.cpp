@@ -113,7 +113,7 @@ void build(EffectBuilder& graph, const Params& params) {
     if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
     pass.writes = {{"result", sides}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
-    pass.needs = SceneData::positions;
+    if (graph.scene().lineRecords) pass.needs = SceneData::positions;   // they stand in the scene's words
     pass.note = "2 neighbours per pixel";
     graph.add(std::move(pass));
     strokeLines(graph, sides, stroke);

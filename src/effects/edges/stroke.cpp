@@ -102,8 +102,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     if (oneColor) draw.defines.emplace_back("ONE_COLOR", "");
     if (oneLook) draw.defines.emplace_back("ONE_LOOK", "");
     if (stroke.side != LineSide::both) draw.defines.emplace_back("ONE_SIDE", stroke.side == LineSide::inner ? "1" : "-1");
-    if (records) draw.defines.emplace_back("WITH_RECORDS", "");
-    draw.needs = SceneData::positions;
+    if (records) draw.defines.emplace_back("WITH_RECORDS", ""), draw.needs = SceneData::positions;
     draw.params = paramsBlock(kConstants, Constants{pack(styles[0]), pack(styles[1]), pack(styles[2]), pack(styles[3]), pack(styles[4]), stroke.opacity, window});
     if (const auto below = graph.find(aov::edges)) {
         // Away from this layer's lines the layers below must stay.
