@@ -1,10 +1,10 @@
 // limn render: configs to pictures.
 
-#include "render/frame_files.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "render/frame_files.h"
 
 #include <fmt/format.h>
 #include <sched.h>

@@ -169,14 +169,14 @@ static std::uint32_t lineRecord(DrawScene& scene, const Instance& object, const 
     return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
 }
 
-FrameRequest frameRequest(const RenderConfig& config, double frame) { return {config.camera, frame, config.image.size, config.image.dpi, config.sections, config.scale}; }
+FrameRequest frameRequest(const RenderConfig& config, double frame) { return {config.file.string(), config.camera, frame, config.image.size, config.image.dpi, config.sections, config.scale}; }
 
 /// The sections that are asked for, and their materials.
 static std::vector<std::uint32_t> resolveSections(const Scene& scene, const FrameRequest& request, DrawScene& draw, std::vector<Material>& materials) {
     std::vector<std::string> names;
     for (const auto& section : scene.sections) names.push_back(section.base.name);
     for (const auto& name : request.sections)
-        if (std::find(names.begin(), names.end(), name) == names.end()) throw Error(ExitCode::usage, {scene.file}, fmt::format("there is no section '{}'", name), names.empty() ? "add a [[section]] with that name to the scene" : nameRemedy(name, names));
+        if (std::find(names.begin(), names.end(), name) == names.end()) throw Error(ExitCode::usage, {request.file}, fmt::format("there is no section '{}' in {}", name, scene.file), names.empty() ? "add a [[section]] with that name to the scene" : nameRemedy(name, names));
     std::vector<std::uint32_t> numbers;
     for (const auto& keyed : scene.sections) {
         if (!keyed.base.name.empty() && std::find(request.sections.begin(), request.sections.end(), keyed.base.name) == request.sections.end()) continue;

@@ -39,6 +39,7 @@ LoadedScene loadScene(const RenderConfig& config);
 
 /// What a picture wants of a scene.
 struct FrameRequest {
+    std::string file;                       ///< who asks: a config, for messages
     std::string camera;                     ///< empty: the first, or one that frames the scene
     double frame = 1;
     glm::ivec2 imageSize{1280, 720};

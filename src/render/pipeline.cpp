@@ -48,7 +48,19 @@ std::vector<const Aov*> chooseAovs(std::span<const Aov* const> aovs, bool averag
     return chosen;
 }
 
+/// The plan; errors that name no file are the config's.
+static FramePlan planOf(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame);
+
 FramePlan planFrame(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame) {
+    try {
+        return planOf(config, facts, view, aovs, frame);
+    } catch (const Error& error) {
+        if (!error.where.file.empty() || error.code != ExitCode::usage) throw;
+        throw Error(error.code, {config.file.string()}, error.problem, error.remedy);
+    }
+}
+
+static FramePlan planOf(const RenderConfig& config, const SceneFacts& facts, const View& view, std::span<const Aov* const> aovs, double frame) {
     FramePlan result;
     EffectBuilder builder(result.graph, view, facts);
     std::vector<const TechniqueChoice*> choices{&config.geometry, &config.shading, &config.composite};
