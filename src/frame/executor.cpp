@@ -116,6 +116,7 @@ static bool isDue(const Pass& pass, const View& view) {
     switch (pass.rate) {
         case Pass::Rate::frame: return view.sample == 0;
         case Pass::Rate::subFrame: return view.sample % view.split.perSubFrame() == 0;
+        case Pass::Rate::line: return view.findsLines();
         case Pass::Rate::sample: break;
     }
     return true;

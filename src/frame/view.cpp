@@ -131,6 +131,8 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.region = {tile.origin - request.guard, tile.size + 2 * request.guard};
     view.split = request.split;
     view.sample = request.sample;
+    const int samples = request.split.samples();
+    view.lineSamples = std::min(samples, request.lineSamples > 0 ? request.lineSamples : std::max(4, samples / 4));
     view.seed = request.seed;
     view.dpi = request.dpi;
     view.unit = scene.unit();

@@ -44,6 +44,7 @@ struct View {
     PixelRect region;               ///< what effects draw: the canvas, or a tile of it and a guard band
     SampleSplit split;
     int sample = 0;                 ///< of split.samples()
+    int lineSamples = 1;            ///< in how many of them lines are found; at most all
     unsigned seed = 0;
 
     bool orthographic = false;
@@ -67,8 +68,13 @@ struct View {
     int widestGuard = 0;            ///< pixels: how wide a guard band effects may ask for
 
     int subFrame() const { return sample / split.perSubFrame(); }
-    /// Which fine pixel of each pixel the sample looks at.
-    glm::ivec2 placeOnRaster() const { return {sample % split.perSubFrame() % split.raster, sample % split.perSubFrame() / split.raster}; }
+    /// Which fine pixel of each pixel the sample looks at: samples that follow each other, and those at even distances, lie well apart.
+    glm::ivec2 placeOnRaster() const {
+        const int place = (sample + subFrame() * (split.perSubFrame() / 2)) % split.perSubFrame(), row = place / split.raster;
+        return {(place + row) % split.raster, row};
+    }
+    /// Are lines found anew in this sample? They lie where the edges are, whichever sample sees them, so that a part of the samples is enough.
+    bool findsLines() const { return sample == 0 || sample * lineSamples / split.samples() != (sample - 1) * lineSamples / split.samples(); }
     /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
@@ -89,6 +95,7 @@ struct ViewRequest {
     int guard = 0, keptGuard = 0, widestGuard = 0;   ///< see View
     SampleSplit split;
     int sample = 0;
+    int lineSamples = 0;            ///< 0: a quarter of them, but at least four
     unsigned seed = 0;
     double dpi = 96;
 };

@@ -105,7 +105,7 @@ private:
         return names;
     }
     std::vector<std::string> sceneData() const {
-        constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"}, {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"},
+        constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"}, {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
                                                              {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}, {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)
@@ -116,6 +116,7 @@ private:
         switch (p.rate) {
             case Pass::Rate::frame: return "once per frame";
             case Pass::Rate::subFrame: return "once per sub-frame";
+            case Pass::Rate::line: return "samples that find lines";
             case Pass::Rate::sample: break;
         }
         return "every sample";

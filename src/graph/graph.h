@@ -32,7 +32,7 @@ struct Resource {
 };
 
 /// Data of the scene that shaders read.
-enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64, rays = 128 };
+enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64, rays = 128, colors = 256 };
 constexpr SceneData operator|(SceneData a, SceneData b) { return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
 constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
 
@@ -85,7 +85,7 @@ struct Pass {
     /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending them on.
     enum class Kind { compute, raster, host };
     /// How often it runs. What a pass makes that does not run for every sample is kept until it runs again.
-    enum class Rate { sample, subFrame, frame };
+    enum class Rate { sample, line, subFrame, frame };   // line: for samples in which lines are found
 
     std::string name;
     std::string slot, technique;

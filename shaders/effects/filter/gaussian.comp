@@ -1,16 +1,16 @@
-// One application of the 3×3 Gaussian (1 2 1)⊗(1 2 1)/16.
+// (1 2 1)/4 applied TAPS_BESIDE times, along rows or along columns: binomial weights.
 #include "lib/space.glsl"
 
-const float WEIGHTS[3] = float[](0.25, 0.5, 0.25);
+float sourceAt(ivec2 pixel) { return texelFetch(source, clamp(pixel, ivec2(0), view.size - 1), 0).r; }
 
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float sum = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            ivec2 tap = clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1);
-            sum += WEIGHTS[x + 1] * WEIGHTS[y + 1] * texelFetch(source, tap, 0).r;
-        }
+    float weight = params.middle, sum = weight * sourceAt(pixel);
+    for (int k = 1; k <= TAPS_BESIDE; ++k) {
+        // C(2n, n + k) follows from C(2n, n + k - 1).
+        weight *= float(TAPS_BESIDE - k + 1) / float(TAPS_BESIDE + k);
+        sum += weight * (sourceAt(pixel + k * params.axis) + sourceAt(pixel - k * params.axis));
+    }
     write_result(vec4(sum));
 }

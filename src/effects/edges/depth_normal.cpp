@@ -98,6 +98,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r32ui);
     Pass pass;
     pass.name = "depth_normal" + graph.layerSuffix();
+    pass.rate = lineRate(graph);
     pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}};
     const auto with = [&](bool wanted, const char* define, const char* sampler, const Aov& aov) {
         if (!wanted) return;

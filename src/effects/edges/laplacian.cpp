@@ -98,6 +98,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r32ui);
     Pass pass;
     pass.name = "laplacian" + graph.layerSuffix();
+    pass.rate = lineRate(graph);
     pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}, {"objectId", graph.read(aov::objectId), 1}};
     pass.writes = {{"result", sides}};
     Constants constants;
