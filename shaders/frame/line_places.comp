@@ -4,6 +4,9 @@
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"
 #ifdef WITH_TRIANGLES
+#ifdef CUTOUTS
+#include "lib/texture.glsl"
+#endif
 #include "frame/spans.glsl"
 #endif
 

@@ -2,6 +2,8 @@
 //
 // Buffer textures, not storage buffers: a fetch brings up to four numbers at once, and software renderers read them several times faster.
 
+#include "lib/color.glsl"
+
 layout(binding = 6) uniform samplerBuffer positions;         // xyz, mesh units from the mesh's pivot
 layout(binding = 7) uniform usamplerBuffer triangles;        // per triangle: its three positions, counted within the mesh
 layout(binding = 8) uniform samplerBuffer normals;           // xyz
@@ -25,6 +27,12 @@ struct Instance {
     uint firstNormal;       // of the mesh, in normals
     uint firstUv;           // of the mesh, in uvs
 };
+
+// words[colorWordsOf(number) + 3·triangle + corner] = vertex colour, see unpackColor; NO_WORDS: none.
+uint colorWordsOf(uint number) { return texelFetch(instances, int(number) * INSTANCE_TEXELS + 11).y; }
+
+// Ten bits each of display-encoded red, green and blue → linear Rec.709.
+vec3 unpackColor(uint packed_) { return srgbToLinear(vec3(uvec3(packed_, packed_ >> 10, packed_ >> 20) & 1023u) / 1023.0); }
 
 uint triangleCountOf(uint number) { return texelFetch(instances, int(number) * INSTANCE_TEXELS + 11).x; }
 
@@ -64,6 +72,21 @@ vec3 viewNormal(MeshFromView m, vec3 normal) {
     return vec3(n / max(max(abs(n.x), abs(n.y)), max(abs(n.z), 1e-300lf)));
 }
 
+// Which uvs the corners of a triangle have: with one index for all attributes, those of its vertices.
+ivec3 uvCorners(Instance instance, uint triangle) {
+#ifdef UNIFIED
+    return int(instance.firstUv) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
+#else
+    return int(instance.firstUv) + ivec3(texelFetch(triangleUvs, int(instance.firstTriangle + triangle)).xyz);
+#endif
+}
+
+// uv at a place on a triangle: barycentric weights of the second and third corner.
+vec2 uvAt(ivec3 corners, vec2 weights) {
+    vec2 first = texelFetch(uvs, corners.x).xy;
+    return first + weights.x * (texelFetch(uvs, corners.y).xy - first) + weights.y * (texelFetch(uvs, corners.z).xy - first);
+}
+
 uint triangleMaterial(Instance instance, uint triangle) {
     uint local = instance.materialWords == NO_WORDS ? 0u : texelFetch(words, int(instance.materialWords + triangle)).r;
     return texelFetch(words, int(instance.materialTable + 2u * local)).r;
@@ -98,6 +121,8 @@ struct Material {
     float shininess;    // Blinn-Phong exponent; no highlight at 1 or below
     float specular;     // strength of the highlight
     int layer;          // of the atlas
+    bool hasHoles;      // where the texture's alpha is below one half
+    bool takesVertexColors;
     ivec4 place;        // xy: level 0 in the atlas; zw: its size, in texels
     vec2 hatch;         // across hatching lines, 1 over their distance in pixels long; 0: none
     float hatchWidth;   // pixels
@@ -107,7 +132,7 @@ struct Material {
 Material materialAt(uint number) {
     int at = int(number) * 5;
     vec4 a = texelFetch(materials, at), b = texelFetch(materials, at + 1), c = texelFetch(materials, at + 2), d = texelFetch(materials, at + 3), e = texelFetch(materials, at + 4);
-    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), ivec4(c), d.xy, d.z, e.rgb);
+    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), (int(b.w) & 1) != 0, (int(b.w) & 2) != 0, ivec4(c), d.xy, d.z, e.rgb);
 }
 
 // The material's colour under its hatching, at a place in the picture (pixels): lines as if drawn, a pixel covered as far as it is.

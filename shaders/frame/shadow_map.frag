@@ -1,3 +1,14 @@
 // Only the depth buffer is wanted.
+#ifdef CUTOUTS
+#include "frame/scene.glsl"
+#include "frame/holes.glsl"
+in vec3 viewPoint;
+flat in uint instanceNumber;
+
+void main() {
+    if (isHole(instanceNumber, uint(gl_PrimitiveID), viewPoint)) discard;
+}
+#else
 
 void main() {}
+#endif

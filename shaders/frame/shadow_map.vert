@@ -7,4 +7,16 @@ layout(location = 1) in uint instance;
 
 uniform int drawing;
 
-void main() { gl_Position = lights[drawing / 8].shadowFromView[drawing % 8] * vec4(viewFromMesh(instance, meshPoint), 1.0); }
+#ifdef CUTOUTS
+out vec3 viewPoint;
+flat out uint instanceNumber;
+#endif
+
+void main() {
+    vec3 point = viewFromMesh(instance, meshPoint);
+    gl_Position = lights[drawing / 8].shadowFromView[drawing % 8] * vec4(point, 1.0);
+#ifdef CUTOUTS
+    viewPoint = point;
+    instanceNumber = instance;
+#endif
+}

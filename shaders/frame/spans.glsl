@@ -7,8 +7,11 @@ uvec2 seenAt(ivec2 pixel) { return texelFetch(visibility, (clamp(pixel, ivec2(0)
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// The part of the way from `pixel` to `pixel + way` that a triangle covers: from x to y, in ways; empty where x > y.
-vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
+// Edge functions of a triangle, linear along the way from a pixel: at + slope · t, all of one sign inside. Divided by their sum they are the barycentric
+// weights of the corners across.
+struct EdgeFunctions { vec3 at, slope; };
+
+EdgeFunctions edgesOf(uvec2 seen, ivec2 pixel, ivec2 way) {
     uint number = seen.x - 1u;
     Instance instance = instanceAt(number);
     ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + seen.y)).xyz);
@@ -19,13 +22,19 @@ vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
         float w = view.orthographic ? 1.0 : -p.z;
         h[i] = vec3(p.xy - centre * w, w);
     }
-    // Edge functions, linear along the way: at + slope · t, all of one sign inside.
-    vec3 at, slope;
+    EdgeFunctions edges;
     for (int i = 0; i < 3; ++i) {
         vec3 a = h[(i + 1) % 3], b = h[(i + 2) % 3];
-        at[i] = cross2(a.xy, b.xy);
-        slope[i] = -(a.z * cross2(along, b.xy) + b.z * cross2(a.xy, along));
+        edges.at[i] = cross2(a.xy, b.xy);
+        edges.slope[i] = -(a.z * cross2(along, b.xy) + b.z * cross2(a.xy, along));
     }
+    return edges;
+}
+
+// The part of the way from `pixel` to `pixel + way` that a triangle covers: from x to y, in ways; empty where x > y.
+vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
+    EdgeFunctions edges = edgesOf(seen, pixel, way);
+    vec3 at = edges.at, slope = edges.slope;
     float side = at.x + at.y + at.z < 0.0 ? -1.0 : 1.0;
     vec2 span = vec2(-1e9, 1e9);
     for (int i = 0; i < 3; ++i) {
@@ -52,6 +61,24 @@ bool shareEdge(uint number, uint one, uint other) {
     return alike >= 2;
 }
 
+#ifdef CUTOUTS
+// Where on the way to a pixel a hole begins in the triangle: 0 … 1, and 2 where none does.
+float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
+    Instance instance = instanceAt(seen.x - 1u);
+    Material look = materialAt(triangleMaterial(instance, seen.y));
+    EdgeFunctions edges = edgesOf(seen, pixel, way);
+    vec3 here = edges.at, there = edges.at + edges.slope;
+    here /= here.x + here.y + here.z, there /= there.x + there.y + there.z;
+    bool staysOn = min(there.x, min(there.y, there.z)) > -0.01;
+    ivec3 corners = uvCorners(instance, seen.y);
+    vec2 from = uvAt(corners, here.yz), to = uvAt(corners, there.yz), change = (to - from) / float(view.raster);
+    float alphaHere = sampleTexture(look, from, change, change).a, alphaThere = sampleTexture(look, to, change, change).a;
+    // Alpha is bilinear between texels: as good as straight over less than one of them.
+    if (!look.hasHoles || !staysOn || alphaThere >= 0.5) return 2.0;
+    return clamp((alphaHere - 0.5) / max(alphaHere - alphaThere, 1e-6), 0.0, 1.0);
+}
+#endif
+
 // How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
 //
 // The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre:
@@ -61,6 +88,10 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     uvec2 lastSeen = seen;
     vec2 last = spanOf(seen, pixel, way);
     float reach = clamp(last.y, 0.0, 1.0);
+#ifdef CUTOUTS
+    float hole = holeOnWay(seen, pixel, way);
+    if (hole <= 1.0) return hole;
+#endif
     if (!goOn) return reach;
     ivec2 across = ivec2(way.y, way.x);
     for (int i = -1; i <= 1; i += 2) {

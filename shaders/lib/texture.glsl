@@ -26,7 +26,7 @@ vec4 sampleTexture(Material material, vec2 uv, vec2 uvX, vec2 uvY) {
     vec2 size = vec2(material.place.zw);
     // The geometric mean of the footprint's sides: between the blur of the longer side and the aliasing of the shorter one.
     float area = max(length(uvX * size), 1e-9) * max(length(uvY * size), 1e-9);
-    float level = clamp(0.5 * log2(area), 0.0, float(material.levels - 1));
+    float level = clamp(0.5 * log2(area), 0.0, float(max(material.levels - 1, 0)));
     int lower = int(level);
-    return mix(sampleLevel(material, uv, lower), sampleLevel(material, uv, min(lower + 1, material.levels - 1)), level - float(lower));
+    return mix(sampleLevel(material, uv, lower), sampleLevel(material, uv, min(lower + 1, max(material.levels - 1, 0))), level - float(lower));
 }

@@ -89,6 +89,11 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.shader = "frame/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;
+    if (scene_.cutouts) {
+        pass.defines.emplace_back("CUTOUTS", "");
+        pass.needs = pass.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
+        if (chosen("geometry", "fast")) pass.defines.emplace_back("UNIFIED", "");
+    }
     pass.drawings = layout.drawings;
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
     pass.note = fmt::format("{} map{}", layout.drawings.size(), layout.drawings.size() == 1 ? "" : "s");

@@ -3,6 +3,7 @@
 #include "base/color.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "frame/texture.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -26,14 +27,14 @@ struct GpuInstance {
     float viewFromMesh[3][4];
     std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
     std::uint32_t materialWords, partWords, firstNormal, firstUv;
-    std::uint32_t triangleCount, padding[3];
+    std::uint32_t triangleCount, colorWords, padding[2];
 };
 static_assert(sizeof(GpuInstance) == 12 * 16);
 
 // Five texels.
 struct GpuMaterial {
     float color[3], levels;
-    float shininess, specular, layer, padding;
+    float shininess, specular, layer, flags;
     float place[4];
     float hatchX, hatchY, hatchWidth, padding2;
     float hatchColor[4];
@@ -47,6 +48,9 @@ struct GpuLight {
     glm::mat4 shadowFromView[6];
 };
 static_assert(sizeof(GpuLight) == 560);
+
+// Of GpuMaterial::flags.
+constexpr int kHasHoles = 1, kTakesVertexColors = 2;
 
 constexpr std::uint32_t kNoWords = ~0u;
 
@@ -65,6 +69,19 @@ std::vector<T> concatenate(std::span<const TriMesh> meshes, std::vector<T> TriMe
     all.reserve(countAll(meshes, member));
     for (const auto& mesh : meshes) all.insert(all.end(), (mesh.*member).begin(), (mesh.*member).end());
     return all;
+}
+
+/// Vertex colours as shaders/frame/scene.glsl reads them: ten display-encoded bits each; of each corner of each triangle, or of each vertex where
+/// those are unified.
+std::vector<std::uint32_t> packColors(const TriMesh& mesh) {
+    std::vector<std::uint32_t> packed(mesh.colors.size()), corners;
+    tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t i) {
+        for (int k = 0; k < 3; ++k) packed[i] |= static_cast<std::uint32_t>(std::lround(linearToSrgb(std::clamp(mesh.colors[i][k], 0.0f, 1.0f)) * 1023)) << (10 * k);
+    });
+    if (mesh.colorIndices.empty()) return packed;
+    corners.reserve(mesh.colorIndices.size());
+    for (const auto i : mesh.colorIndices) corners.push_back(packed[i]);
+    return corners;
 }
 
 /// A scale of 0 flattens a mesh, which is a fair thing to ask for but leaves no way back from the view: a billionth of the size does both.
@@ -121,71 +138,6 @@ std::vector<glm::dmat4> shadowMatrices(const Light& light, const SceneInfo& scen
     return faces;
 }
 
-/// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a column to its right.
-struct MipChain {
-    glm::ivec2 size{0};
-    int levels = 1;
-    std::vector<std::vector<std::uint8_t>> pixels;   ///< RGBA per level
-
-    glm::ivec2 levelSize(int level) const { return glm::max(size >> level, glm::ivec2(1)); }
-    glm::ivec2 levelOrigin(int level) const {
-        glm::ivec2 origin(0);
-        for (int l = 1; l <= level; ++l) l == 1 ? void(origin.x = size.x) : void(origin.y += levelSize(l - 1).y);
-        return origin;
-    }
-    glm::ivec2 footprint() const {
-        const glm::ivec2 last = levelOrigin(levels - 1) + levelSize(levels - 1);
-        return {levels > 1 ? size.x + levelSize(1).x : size.x, std::max(size.y, last.y)};
-    }
-};
-
-/// Halves by averaging the area that each new texel covers, so that any size works.
-Image halve(const Image& image, glm::ivec2 size) {
-    Image half{size.x, size.y, 4, std::vector<float>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4)};
-    tbb::parallel_for(0, size.y, [&](int y) {
-        for (int x = 0; x < size.x; ++x) {
-            const double x0 = double(x) * image.width / size.x, x1 = double(x + 1) * image.width / size.x;
-            const double y0 = double(y) * image.height / size.y, y1 = double(y + 1) * image.height / size.y;
-            double sum[4] = {}, total = 0;
-            for (int v = static_cast<int>(y0); v < std::min<int>(static_cast<int>(std::ceil(y1)), image.height); ++v) {
-                for (int u = static_cast<int>(x0); u < std::min<int>(static_cast<int>(std::ceil(x1)), image.width); ++u) {
-                    const double weight = (std::min<double>(u + 1, x1) - std::max<double>(u, x0)) * (std::min<double>(v + 1, y1) - std::max<double>(v, y0));
-                    for (int c = 0; c < 4; ++c) sum[c] += weight * static_cast<double>(image.at(u, v)[c]);
-                    total += weight;
-                }
-            }
-            for (int c = 0; c < 4; ++c) half.at(x, y)[c] = static_cast<float>(sum[c] / total);
-        }
-    });
-    return half;
-}
-
-MipChain makeMipChain(const Image& picture) {
-    Image level{picture.width, picture.height, 4, {}};
-    level.pixels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 4);
-    for (int y = picture.height - 1; y >= 0; --y) {  // v counts from the bottom
-        for (int x = 0; x < picture.width; ++x) {
-            const float* p = picture.at(x, y);
-            const bool grey = picture.channels < 3;
-            for (int c = 0; c < 3; ++c) level.pixels.push_back(p[grey ? 0 : c]);
-            level.pixels.push_back(picture.channels == 4 ? p[3] : picture.channels == 2 ? p[1] : 1.0f);
-        }
-    }
-    MipChain chain;
-    chain.size = {picture.width, picture.height};
-    chain.levels = 1 + static_cast<int>(std::log2(std::max(picture.width, picture.height)));
-    for (int l = 0; l < chain.levels; ++l) {
-        if (l > 0) level = halve(level, chain.levelSize(l));
-        chain.pixels.push_back(quantize8({.name = "texture", .channels = {}, .isColour = false, .isInteger = false, .image = [&] {
-            Image encoded = level;
-            for (std::size_t i = 0; i < encoded.pixels.size(); ++i)
-                if (i % 4 != 3) encoded.pixels[i] = linearToSrgb(encoded.pixels[i]);
-            return encoded;
-        }()}));
-    }
-    return chain;
-}
-
 }  // namespace
 
 ShadowLayout shadowLayout(std::span<const Light> lights) {
@@ -224,7 +176,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
     }
     std::uint32_t vertices = 0, triangles = 0, normals = 0, uvs = 0;
     for (const auto& mesh : meshes) {
-        MeshPlace place{vertices, normals, uvs, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, mesh.pivot};
+        MeshPlace place{vertices, normals, uvs, triangles, static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, kNoWords, mesh.pivot};
         const auto addWords = [&](const std::vector<std::uint32_t>& values) {
             if (values.empty()) return kNoWords;
             words.insert(words.end(), values.begin(), values.end());
@@ -232,6 +184,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         };
         if (has(needs, SceneData::materials)) place.materialWords = addWords(mesh.triangleMaterial);
         place.partWords = addWords(mesh.trianglePart);
+        if (has(needs, SceneData::colors)) place.colorWords = addWords(packColors(mesh));
         vertices += static_cast<std::uint32_t>(mesh.positions.size());
         normals += static_cast<std::uint32_t>(mesh.normals.size());
         uvs += static_cast<std::uint32_t>(mesh.uvs.size());
@@ -289,7 +242,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
             const auto& m = scene.materials[i];
             const auto& entry = atlasEntries_[i];
             const auto number = [](int value) { return static_cast<float>(value); };
-            gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b}, number(entry.levels), m.shininess, m.specular, number(entry.place.z), 0,
+            gpuMaterials.push_back({{m.color.r, m.color.g, m.color.b}, number(entry.levels), m.shininess, m.specular, number(entry.place.z), number((m.cutout.empty() ? 0 : kHasHoles) | (m.vertexColors ? kTakesVertexColors : 0)),
                                     {number(entry.place.x), number(entry.place.y), number(entry.size.x), number(entry.size.y)},
                                     0, 0, static_cast<float>(m.hatch.width), 0, {m.hatch.color.r, m.hatch.color.g, m.hatch.color.b, 0}});
             // Across the lines, one per distance between them.
@@ -301,40 +254,41 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
 }
 
 void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
-    std::map<std::string, MipChain> chains;
+    using Files = std::pair<std::string, std::string>;   // of colours, and of holes
+    const auto filesOf = [](const Material& material) { return Files(material.texture, material.cutout); };
+    std::map<Files, MipChain> chains;
     for (const auto& material : scene.materials)
-        if (!material.texture.empty()) chains[material.texture];
+        if (!material.texture.empty() || !material.cutout.empty()) chains[filesOf(material)];
     if (chains.empty()) return;
-    for (auto& [file, chain] : chains) chain = makeMipChain(readImage(file));
+    for (auto& [files, chain] : chains) chain = makeMipChain(readTexture(files.first, files.second), !files.second.empty());
 
     // Shelves: tallest first, left to right, then the next shelf, then the next layer.
-    std::vector<std::pair<std::string, const MipChain*>> order;
+    std::vector<std::pair<Files, const MipChain*>> order;
     int side = 256;
-    for (const auto& [file, chain] : chains) {
-        order.emplace_back(file, &chain);
+    for (const auto& [files, chain] : chains) {
+        order.emplace_back(files, &chain);
         const glm::ivec2 footprint = chain.footprint();
         while (side < std::max(footprint.x, footprint.y)) side *= 2;
-        if (side > maxTextureSize) throw Error(ExitCode::outOfMemory, {file}, fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y), "make it smaller");
+        if (side > maxTextureSize) throw Error(ExitCode::outOfMemory, {files.first.empty() ? files.second : files.first}, fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y), "make it smaller");
     }
     std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second->footprint().y > b.second->footprint().y; });
-    std::map<std::string, glm::ivec3> places;
+    std::map<Files, glm::ivec3> places;
     glm::ivec3 pen(0);
     int shelf = 0;
-    for (const auto& [file, chain] : order) {
+    for (const auto& [files, chain] : order) {
         const glm::ivec2 footprint = chain->footprint();
         if (pen.x + footprint.x > side) pen.x = 0, pen.y += shelf, shelf = 0;
         if (pen.y + footprint.y > side) pen = {0, 0, pen.z + 1}, shelf = 0;
-        places[file] = pen;
+        places[files] = pen;
         pen.x += footprint.x;
         shelf = std::max(shelf, footprint.y);
     }
     atlas_ = gl::Texture::pictureArray(side, pen.z + 1, "texture atlas");
-    for (const auto& [file, chain] : chains)
-        for (int l = 0; l < chain.levels; ++l) atlas_.writeLayer(places[file].z, glm::ivec2(places[file]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
+    for (const auto& [files, chain] : chains)
+        for (int l = 0; l < chain.levels; ++l) atlas_.writeLayer(places[files].z, glm::ivec2(places[files]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto& file = scene.materials[i].texture;
-        if (file.empty()) continue;
-        atlasEntries_[i] = {places[file], chains[file].levels, chains[file].size};
+        const auto known = chains.find(filesOf(scene.materials[i]));
+        if (known != chains.end()) atlasEntries_[i] = {places[known->first], known->second.levels, known->second.size};
     }
 }
 
@@ -358,7 +312,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
         }
         gpu.firstVertex = place.firstVertex, gpu.firstTriangle = place.firstTriangle, gpu.materialTable = materialTables_[i], gpu.firstObject = instance.firstObject;
         gpu.materialWords = place.materialWords, gpu.partWords = place.partWords, gpu.firstNormal = place.firstNormal, gpu.firstUv = place.firstUv;
-        gpu.triangleCount = place.triangleCount;
+        gpu.triangleCount = place.triangleCount, gpu.colorWords = place.colorWords;
         instances.push_back(gpu);
     }
     const auto bytes = bytesOf(instances);

@@ -23,6 +23,7 @@ struct DrawInstance {
     std::string_view name;                  ///< of the instance in the scene; as long as that lives, like:
     std::span<const std::string> parts;     ///< names of the mesh's parts
     std::vector<std::uint32_t> lineRecords; ///< beside materials: index into DrawScene::lineRecords
+    bool hasColors = false;                 ///< the mesh has vertex colours
 };
 
 /// A plane that cuts the scene open. Beyond it, on its normal's side, nothing is drawn.
@@ -66,7 +67,7 @@ private:
     std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
     std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
 
-    struct MeshPlace { std::uint32_t firstVertex, firstNormal, firstUv, firstTriangle, triangleCount, materialWords, partWords; glm::dvec3 pivot; };
+    struct MeshPlace { std::uint32_t firstVertex, firstNormal, firstUv, firstTriangle, triangleCount, materialWords, partWords, colorWords; glm::dvec3 pivot; };
     std::vector<MeshPlace> places_;
     std::vector<std::uint32_t> materialTables_;   ///< offset of each instance's table in the words buffer
     struct AtlasEntry { glm::ivec3 place{0}; int levels = 0; glm::ivec2 size{0}; };   ///< place: x, y, layer

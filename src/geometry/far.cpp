@@ -208,6 +208,14 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     std::vector<Value<2>> uvs;
     if (withUvs)
         for (const auto& uv : uvValues(cage)) uvs.push_back({uv});
+    // Colours are bilinear between the cage's vertices.
+    std::vector<Value<3>> colors;
+    for (const auto& color : cage.colors) colors.push_back({glm::dvec3(color)});
+    for (int l = 1; l <= options.level && !colors.empty(); ++l) {
+        std::vector<Value<3>> finer(static_cast<std::size_t>(refiner->GetLevel(l).GetNumVertices()));
+        primvars.InterpolateVarying(l, colors, finer);
+        colors = std::move(finer);
+    }
     for (int l = 1; l <= depth; ++l) {
         std::vector<Value<3>> finer(static_cast<std::size_t>(refiner->GetLevel(l).GetNumVertices()));
         primvars.Interpolate(l, points, finer);
@@ -254,6 +262,7 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     out.materialNames = cage.materialNames, out.partNames = cage.partNames, out.materialLibraries = cage.materialLibraries;
     for (const auto& p : points) out.positions.push_back(p.v);
     for (const auto& uv : uvs) out.uvs.emplace_back(uv.v);
+    for (const auto& color : colors) out.colors.emplace_back(color.v);
     std::vector<std::size_t> firstCorner(static_cast<std::size_t>(last.GetNumFaces()), ~std::size_t{0});
     for (int f = 0; f < last.GetNumFaces(); ++f) {
         if (last.IsFaceHole(f)) continue;

@@ -9,7 +9,7 @@ namespace limn {
 namespace {
 
 /// A corner of a triangle: its place in each of the mesh's lists.
-struct Corner { std::uint32_t position, normal, uv; };
+struct Corner { std::uint32_t position, normal, uv, color; };
 
 bool before(const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
@@ -24,7 +24,7 @@ struct PointHash {
 class Cutter {
 public:
     Cutter(const TriMesh& in, const CutPlane& plane, const MeshNeeds& needs) : in_(in), plane_(plane), needs_(needs) {
-        out_.pivot = in.pivot, out_.positions = in.positions, out_.normals = in.normals, out_.uvs = in.uvs;
+        out_.pivot = in.pivot, out_.positions = in.positions, out_.normals = in.normals, out_.uvs = in.uvs, out_.colors = in.colors;
     }
 
     CutMesh cut() {
@@ -35,7 +35,7 @@ public:
             std::array<double, 3> h;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t i = 3 * t + k;
-                corners[k] = {in_.indices[i], in_.normalIndices.empty() ? 0 : in_.normalIndices[i], in_.uvIndices.empty() ? 0 : in_.uvIndices[i]};
+                corners[k] = {in_.indices[i], in_.normalIndices.empty() ? 0 : in_.normalIndices[i], in_.uvIndices.empty() ? 0 : in_.uvIndices[i], in_.colorIndices.empty() ? 0 : in_.colorIndices[i]};
                 h[k] = height[corners[k].position];
             }
             const std::uint32_t material = in_.triangleMaterial.empty() ? 0 : in_.triangleMaterial[t], part = in_.trianglePart.empty() ? 0 : in_.trianglePart[t];
@@ -53,6 +53,7 @@ private:
             out_.indices.push_back(corner.position);
             if (!in_.normalIndices.empty()) out_.normalIndices.push_back(corner.normal);
             if (!in_.uvIndices.empty()) out_.uvIndices.push_back(corner.uv);
+            if (!in_.colorIndices.empty()) out_.colorIndices.push_back(corner.color);
         }
         out_.triangleMaterial.push_back(material);
         out_.trianglePart.push_back(part);
@@ -64,7 +65,7 @@ private:
         const double t = heightA / (heightA - heightB);
         const auto mix = [&](const auto& from, const auto& to) { return from + (to - from) * static_cast<float>(t); };
         const glm::dvec3 from(in_.positions[a.position]), to(in_.positions[b.position]);
-        Corner made{static_cast<std::uint32_t>(out_.positions.size()), 0, 0};
+        Corner made{static_cast<std::uint32_t>(out_.positions.size()), 0, 0, 0};
         out_.positions.emplace_back(from + (to - from) * t);
         const auto attribute = [&](auto& list, std::uint32_t place, std::uint32_t one, std::uint32_t other, bool own) {
             if (list.empty()) return place;
@@ -74,6 +75,7 @@ private:
         };
         made.normal = attribute(out_.normals, 0, a.normal, b.normal, !in_.normalIndices.empty());
         made.uv = attribute(out_.uvs, 0, a.uv, b.uv, !in_.uvIndices.empty());
+        made.color = attribute(out_.colors, 0, a.color, b.color, !in_.colorIndices.empty());
         return made;
     }
 
@@ -136,9 +138,11 @@ private:
         const auto firstNormal = static_cast<std::uint32_t>(out_.normals.size()), firstUv = static_cast<std::uint32_t>(out_.uvs.size());
         if (needs_.normals) out_.normals.insert(out_.normals.end(), needs_.unified ? points.size() : 1, glm::vec3(normal));
         if (needs_.uvs) out_.uvs.insert(out_.uvs.end(), needs_.unified ? points.size() : 1, glm::vec2(0));
+        const auto firstColor = static_cast<std::uint32_t>(out_.colors.size());
+        if (!out_.colors.empty()) out_.colors.insert(out_.colors.end(), needs_.unified ? points.size() : 1, glm::vec3(1));
         for (std::size_t i = 0; i < triangles.size(); i += 3) {
             std::array<Corner, 3> corners;
-            for (std::size_t k = 0; k < 3; ++k) corners[k] = {firstPoint + triangles[i + k], firstNormal, firstUv};
+            for (std::size_t k = 0; k < 3; ++k) corners[k] = {firstPoint + triangles[i + k], firstNormal, firstUv, firstColor};
             add(corners, plane_.material, plane_.part);
         }
     }

@@ -100,8 +100,9 @@ void append(TriMesh& to, const TriMesh& from) {
     shift(to.indices, from.indices, to.positions.size());
     shift(to.normalIndices, from.normalIndices, to.normals.size());
     shift(to.uvIndices, from.uvIndices, to.uvs.size());
+    shift(to.colorIndices, from.colorIndices, to.colors.size());
     const auto join = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
-    join(to.positions, from.positions), join(to.normals, from.normals), join(to.uvs, from.uvs);
+    join(to.positions, from.positions), join(to.normals, from.normals), join(to.uvs, from.uvs), join(to.colors, from.colors);
     const auto joinWords = [&](std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {   // empty means all 0
         if (a.empty() && b.empty()) return;
         a.resize(before), join(a, b), a.resize(to.triangleCount());

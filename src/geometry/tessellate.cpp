@@ -21,7 +21,7 @@ namespace {
 using namespace OpenSubdiv;
 using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
 
-const Bfr::Surface<double>::PointDescriptor kPoint(3), kUv(2);
+const Bfr::Surface<double>::PointDescriptor kPoint(3), kUv(2), kColor(3);
 
 /// How a face is cut: the same for all faces of a size with the same rates.
 struct Pattern {
@@ -59,13 +59,14 @@ glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
 class Tessellator {
 public:
     Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot, bool byBfr)
-        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), byBfr_(byBfr), withUvs_(needs.uvs && !cage.cornerUv.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
+        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), byBfr_(byBfr), withUvs_(needs.uvs && !cage.cornerUv.empty()), withColors_(needs.colors && !cage.colors.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
 
     TriMesh run() {
         findRates();
         findSharpPlaces();
         for (const auto& p : cage_.positions) points_.push_back(p - pivot_);
         if (withUvs_) uvPoints_ = uvValues(cage_);
+        if (withColors_) colorPoints_.assign(cage_.colors.begin(), cage_.colors.end());
         if (!byBfr_) patches_ = std::make_unique<FarLimit>(*refiner_, std::clamp(levelsOfCreases(cage_.tags), 6, 9), points_, uvPoints_);
         const Factory factory(*refiner_, factoryOptions());
         layOut(factory);
@@ -79,8 +80,8 @@ private:
     struct Scratch {
         int face = 0;
         Bfr::Parameterization parameterization;
-        Bfr::Surface<double> surface, uvSurface;
-        std::vector<double> patch, uvPatch;
+        Bfr::Surface<double> surface, uvSurface, colorSurface;
+        std::vector<double> patch, uvPatch, colorPatch;
         std::map<std::vector<int>, Pattern> patterns;
     };
 
@@ -192,13 +193,14 @@ private:
         };
         const std::size_t positions = place(interior, next, interiorStart_);
         const std::size_t normals = place(ownNormals, positions, normalStart_);
-        const std::size_t uvs = place(coords, 0, uvStart_);
+        const std::size_t allCoords = place(coords, 0, coordStart_);
         const std::size_t count = place(triangles, 0, triangleStart_);
         out_.pivot = pivot_;
         out_.positions.resize(positions);
         out_.indices.resize(3 * count);
         if (needs_.normals) out_.normals.resize(normals), out_.normalIndices.resize(3 * count);
-        if (needs_.uvs) out_.uvs.resize(withUvs_ ? uvs : 1), out_.uvIndices.resize(3 * count);
+        if (needs_.uvs) out_.uvs.resize(withUvs_ ? allCoords : 1), out_.uvIndices.resize(3 * count);
+        if (withColors_) out_.colors.resize(allCoords), out_.colorIndices.resize(3 * count);
         const auto any = [](const auto& values) { return std::any_of(values.begin(), values.end(), [](auto v) { return v != 0; }); };
         if (any(cage_.faceMaterial)) out_.triangleMaterial.resize(count);
         if (any(cage_.facePart)) out_.trianglePart.resize(count);
@@ -263,14 +265,25 @@ private:
                 s.uvPatch.resize(static_cast<std::size_t>(s.uvSurface.GetNumPatchPoints()) * 2);
                 s.uvSurface.PreparePatchPoints(&uvPoints_.data()->x, kUv, s.uvPatch.data(), kUv);
             }
-            for (std::size_t i = 0; i < pattern.coords.size(); ++i) out_.uvs[uvStart_[f] + i] = uvAt(s, pattern.coords[i]);
+            for (std::size_t i = 0; i < pattern.coords.size(); ++i) out_.uvs[coordStart_[f] + i] = uvAt(s, pattern.coords[i]);
+        }
+        if (withColors_) {   // bilinear between the cage's vertices
+            factory.InitVaryingSurface(face, &s.colorSurface);
+            s.colorPatch.resize(static_cast<std::size_t>(s.colorSurface.GetNumPatchPoints()) * 3);
+            s.colorSurface.PreparePatchPoints(&colorPoints_.data()->x, kColor, s.colorPatch.data(), kColor);
+            for (std::size_t i = 0; i < pattern.coords.size(); ++i) {
+                glm::dvec3 color;
+                s.colorSurface.Evaluate(&pattern.coords[i].x, s.colorPatch.data(), kColor, &color.x);
+                out_.colors[coordStart_[f] + i] = color;
+            }
         }
         const std::size_t first = triangleStart_[f];
         for (std::size_t i = 0; i < pattern.facets.size(); ++i) {
             const std::uint32_t coord = pattern.facets[i];
             out_.indices[3 * first + i] = places[coord].position;
             if (needs_.normals) out_.normalIndices[3 * first + i] = places[coord].normal;
-            if (needs_.uvs) out_.uvIndices[3 * first + i] = withUvs_ ? uvStart_[f] + coord : 0;
+            if (needs_.uvs) out_.uvIndices[3 * first + i] = withUvs_ ? coordStart_[f] + coord : 0;
+            if (withColors_) out_.colorIndices[3 * first + i] = coordStart_[f] + coord;
         }
         for (std::size_t t = first; t < first + pattern.facets.size() / 3; ++t) {
             if (!out_.triangleMaterial.empty()) out_.triangleMaterial[t] = cage_.faceMaterial[f];
@@ -354,25 +367,26 @@ private:
             const auto move = [&](std::vector<std::uint32_t>& values, std::size_t size) {
                 if (!values.empty()) std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size, values.begin() + static_cast<std::ptrdiff_t>(size * kept));
             };
-            move(out_.indices, 3), move(out_.normalIndices, 3), move(out_.uvIndices, 3), move(out_.triangleMaterial, 1), move(out_.trianglePart, 1);
+            move(out_.indices, 3), move(out_.normalIndices, 3), move(out_.uvIndices, 3), move(out_.colorIndices, 3), move(out_.triangleMaterial, 1), move(out_.trianglePart, 1);
             ++kept;
         }
         const auto cut = [&](std::vector<std::uint32_t>& values, std::size_t size) { if (!values.empty()) values.resize(size * kept); };
-        cut(out_.indices, 3), cut(out_.normalIndices, 3), cut(out_.uvIndices, 3), cut(out_.triangleMaterial, 1), cut(out_.trianglePart, 1);
+        cut(out_.indices, 3), cut(out_.normalIndices, 3), cut(out_.uvIndices, 3), cut(out_.colorIndices, 3), cut(out_.triangleMaterial, 1), cut(out_.trianglePart, 1);
     }
 
     const PolyMesh& cage_;
     const SubdivisionOptions& options_;
     const MeshNeeds& needs_;
     glm::dvec3 pivot_;
-    bool byBfr_, withUvs_;
+    bool byBfr_, withUvs_, withColors_;
     std::unique_ptr<Far::TopologyRefiner> refiner_;
     const Far::TopologyLevel& base_;
     std::vector<int> rate_, vertexOwner_, edgeOwner_;
     std::vector<char> sharpEdge_, sharpVertex_, drawn_;
-    std::vector<std::uint32_t> edgeStart_, interiorStart_, normalStart_, uvStart_, triangleStart_;
+    std::vector<std::uint32_t> edgeStart_, interiorStart_, normalStart_, coordStart_, triangleStart_;
     std::vector<glm::dvec3> points_;       ///< of the cage, relative to the pivot
     std::vector<glm::dvec2> uvPoints_;
+    std::vector<glm::dvec3> colorPoints_;
     std::unique_ptr<FarLimit> patches_;    ///< unless by Bfr
     TriMesh out_;
 };

@@ -136,6 +136,7 @@ private:
         out_.positions.emplace_back(mesh_.positions[position] - out_.pivot);
         if (needs_.normals) out_.normals.push_back(normal);
         if (needs_.uvs) out_.uvs.push_back(uv);
+        if (needs_.colors && !mesh_.colors.empty()) out_.colors.push_back(mesh_.colors[position]);
         next_.push_back(head_[position]);
         head_[position] = v;
         return v;
@@ -177,7 +178,7 @@ void numberByLastVertex(TriMesh& mesh) {
         const auto turn = [&](std::vector<std::uint32_t>& indices) {
             if (!indices.empty()) std::rotate(indices.begin() + std::ptrdiff_t{3} * t, indices.begin() + std::ptrdiff_t{3} * t + static_cast<std::ptrdiff_t>((last + 1) % 3), indices.begin() + std::ptrdiff_t{3} * t + 3);
         };
-        turn(mesh.indices), turn(mesh.normalIndices), turn(mesh.uvIndices);
+        turn(mesh.indices), turn(mesh.normalIndices), turn(mesh.uvIndices), turn(mesh.colorIndices);
         positions[t] = mesh.positions[corner[2]];
         if (place[corner[2]] == none) place[corner[2]] = t;
     }
@@ -222,6 +223,7 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
     } else {
         out.positions.resize(mesh.positions.size());
         tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) { out.positions[i] = glm::vec3(mesh.positions[i] - out.pivot); });
+        if (needs.colors) out.colors = mesh.colors;
         // Attributes keep the file's own indices, so that a vertex whose faces differ in normal is still one vertex to the rasterizer.
         if (fileNormals) {
             out.normals.resize(mesh.normals.size());
@@ -236,7 +238,7 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
     }
     const auto normalOf = [&](std::uint32_t corner) { return fileNormals ? static_cast<std::uint32_t>(mesh.cornerNormal[corner]) : corner; };
     const auto uvOf = [&](std::uint32_t corner) { return mesh.cornerUv.empty() || mesh.cornerUv[corner] == PolyMesh::kNone ? static_cast<std::uint32_t>(mesh.uvs.size()) : static_cast<std::uint32_t>(mesh.cornerUv[corner]); };
-    const bool ownNormals = needs.normals && !needs.unified, ownUvs = needs.uvs && !needs.unified;
+    const bool ownNormals = needs.normals && !needs.unified, ownUvs = needs.uvs && !needs.unified, ownColors = !out.colors.empty() && !needs.unified;
     const auto vertexOf = [&](std::uint32_t corner) { return cornerVertex.empty() ? mesh.cornerPosition[corner] : cornerVertex[corner]; };
 
     const std::size_t count = triangles.corner.size() / 3;
@@ -250,6 +252,7 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
     out.indices.resize(triangles.corner.size());
     if (ownNormals) out.normalIndices.resize(triangles.corner.size());
     if (ownUvs) out.uvIndices.resize(triangles.corner.size());
+    if (ownColors) out.colorIndices.resize(triangles.corner.size());
     if (wantMaterials) out.triangleMaterial.resize(count);
     if (wantParts) out.trianglePart.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
@@ -259,6 +262,7 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
             out.indices[3 * kept + k] = vertexOf(corner);
             if (ownNormals) out.normalIndices[3 * kept + k] = normalOf(corner);
             if (ownUvs) out.uvIndices[3 * kept + k] = uvOf(corner);
+            if (ownColors) out.colorIndices[3 * kept + k] = mesh.cornerPosition[corner];
         }
         if (wantMaterials) out.triangleMaterial[kept] = mesh.faceMaterial[triangles.face[t]];
         if (wantParts) out.trianglePart[kept] = mesh.facePart[triangles.face[t]];
@@ -267,6 +271,7 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
     out.indices.resize(3 * kept);
     if (ownNormals) out.normalIndices.resize(3 * kept);
     if (ownUvs) out.uvIndices.resize(3 * kept);
+    if (ownColors) out.colorIndices.resize(3 * kept);
     if (wantMaterials) out.triangleMaterial.resize(kept);
     if (wantParts) out.trianglePart.resize(kept);
     return out;

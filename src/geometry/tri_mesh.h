@@ -35,6 +35,7 @@ struct MeshNeeds {
     bool normals = false;
     bool uvs = false;
     bool unified = false;   ///< one index for everything, as vertex pipelines want it; else positions stay shared and each attribute has its own
+    bool colors = false;    ///< where the mesh has them
     bool operator==(const MeshNeeds&) const = default;
 };
 
@@ -43,10 +44,12 @@ struct TriMesh {
     std::vector<glm::vec3> positions;          ///< mesh units
     std::vector<glm::vec3> normals;            ///< unit length, or zero where the surface has none; empty unless asked for
     std::vector<glm::vec2> uvs;                ///< empty unless asked for
+    std::vector<glm::vec3> colors;             ///< linear; empty unless asked for, and where the mesh has none
     std::vector<std::uint32_t> indices;        ///< three positions per triangle, counter-clockwise from outside. Unless unified, the last one
                                                ///< of triangle t is t: rasterizers hand its vertex's number on as the triangle's
     std::vector<std::uint32_t> normalIndices;  ///< three normals per triangle; empty when unified, or without normals
     std::vector<std::uint32_t> uvIndices;      ///< three uvs per triangle; empty when unified, or without uvs
+    std::vector<std::uint32_t> colorIndices;   ///< three colours per triangle; empty when unified, or without colours
     std::vector<std::uint32_t> triangleMaterial;  ///< index into PolyMesh::materialNames; empty = all 0
     std::vector<std::uint32_t> trianglePart;      ///< index into PolyMesh::partNames; empty = all 0
 

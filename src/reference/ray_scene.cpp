@@ -1,11 +1,13 @@
 #include "reference/ray_scene.h"
 
 #include "base/error.h"
+#include "frame/texture.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,32 @@ Tree makeScene(RTCDevice device) {
     return scene;
 }
 
-void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const glm::dmat3& linear, const glm::dvec3& offset) {
+/// What Embree needs to know to let rays through the holes of a mesh.
+struct Holes {
+    std::vector<const Image*> mask;         ///< of each triangle; null: it has none
+    std::vector<glm::vec2> uvs;             ///< three per triangle
+};
+
+float alphaAt(const Image& mask, glm::vec2 uv) {
+    // Bilinear, repeating, as shaders/lib/texture.glsl does.
+    const glm::vec2 size(mask.width, mask.height), at = (uv - glm::floor(uv)) * size - 0.5f, cell = glm::floor(at), f = at - cell;
+    const auto texel = [&](int x, int y) { return mask.at((static_cast<int>(cell.x) + x + mask.width) % mask.width, (static_cast<int>(cell.y) + y + mask.height) % mask.height)[3]; };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
+}
+
+void ignoreHoles(const RTCFilterFunctionNArguments* call) {
+    const auto& holes = *static_cast<const Holes*>(call->geometryUserPtr);
+    for (unsigned i = 0; i < call->N; ++i) {
+        if (call->valid[i] == 0) continue;
+        const std::size_t triangle = RTCHitN_primID(call->hit, call->N, i);
+        if (!holes.mask[triangle]) continue;
+        const float u = RTCHitN_u(call->hit, call->N, i), v = RTCHitN_v(call->hit, call->N, i);
+        const glm::vec2* uv = holes.uvs.data() + 3 * triangle;
+        if (alphaAt(*holes.mask[triangle], uv[0] + u * (uv[1] - uv[0]) + v * (uv[2] - uv[0])) < 0.5f) call->valid[i] = 0;
+    }
+}
+
+void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const glm::dmat3& linear, const glm::dvec3& offset, Holes* holes = nullptr) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
@@ -41,6 +68,11 @@ void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const g
             for (int k = 0; k < 3; ++k) vertices[3 * i + static_cast<std::size_t>(k)] = p[k];
         });
         std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
+        if (holes) {
+            rtcSetGeometryUserData(geometry, holes);
+            rtcSetGeometryIntersectFilterFunction(geometry, ignoreHoles);
+            rtcSetGeometryOccludedFilterFunction(geometry, ignoreHoles);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }
@@ -54,6 +86,30 @@ struct RayScene::Trees {
     TreeDevice device;
     std::vector<Tree> shared;
     Tree top;
+    std::map<std::string, Image> masks;               ///< by their files
+    std::vector<std::unique_ptr<Holes>> holes;
+
+    /// The holes of a mesh as an instance shows it, or null.
+    Holes* holesOf(const DrawScene& scene, const DrawInstance& instance, const TriMesh& mesh) {
+        std::vector<const Image*> maskOf;
+        for (const auto number : instance.materials) {
+            const Material& material = scene.materials[number];
+            const Image* mask = nullptr;
+            if (!material.cutout.empty()) {
+                auto [it, isNew] = masks.try_emplace(material.cutout);
+                if (isNew) it->second = readTexture("", material.cutout);
+                mask = &it->second;
+            }
+            maskOf.push_back(mask);
+        }
+        if (std::all_of(maskOf.begin(), maskOf.end(), [](const Image* mask) { return !mask; })) return nullptr;
+        auto& made = *holes.emplace_back(std::make_unique<Holes>());
+        for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+            made.mask.push_back(maskOf[mesh.triangleMaterial.empty() ? 0 : mesh.triangleMaterial[t]]);
+            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) made.uvs.push_back(mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]]);
+        }
+        return &made;
+    }
 };
 
 RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf) : trees_(std::make_unique<Trees>()), unit_(scene.info.unit()) {
@@ -72,8 +128,10 @@ RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         const glm::dmat4& world = scene.instances[i].worldFromMesh;
         const glm::dmat3 linear = glm::dmat3(world) * unit_;
         const glm::dvec3 offset = (glm::dvec3(world * glm::dvec4(mesh.pivot, 1)) - origin_) * unit_;
-        if (uses[number] == 1) {
-            addTriangles(device, trees_->top.get(), mesh, linear, offset);
+        // Instances may show different materials on one mesh: with holes each has triangles of its own.
+        Holes* holes = trees_->holesOf(scene, scene.instances[i], mesh);
+        if (uses[number] == 1 || holes) {
+            addTriangles(device, trees_->top.get(), mesh, linear, offset, holes);
             continue;
         }
         if (!shared[number]) {

@@ -47,6 +47,8 @@ public:
         if (isNew)
             for (const auto& material : loaded_.meshes[mesh].materials)
                 if (material.name == name) it->second = add(material);
+        // Colours of vertices are all the colour there is, where no material says more.
+        if (isNew && it->second == 0 && !loaded_.meshes[mesh].poly.colors.empty()) it->second = add({.name = name, .color = {1, 1, 1}});
         return it->second;
     }
 
@@ -130,7 +132,8 @@ LoadedScene loadScene(const RenderConfig& config) {
             for (std::size_t at = 0; at < file.text().size(); at += stride) hash.add(file.text().substr(at, kPiece));
             for (const auto& material : loaded.meshes[i].materials) {
                 hash.add(fmt::format("{} {} {} {} {} {}", material.name, material.color.r, material.color.g, material.color.b, material.shininess, material.specular));
-                if (!material.texture.empty()) hash.add(MappedFile(material.texture).text());
+                for (const auto& image : {material.texture, material.cutout})
+                    if (!image.empty()) hash.add(MappedFile(image).text());
             }
             if (!meshes[i].creases.empty()) hash.add(MappedFile(meshes[i].creases).text());
             hashes[i] = hash.value();
@@ -149,7 +152,8 @@ LoadedScene loadScene(const RenderConfig& config) {
     for (const auto& file : files) hash.add(readFile(file));
     for (const auto value : hashes) hash.add(&value, sizeof value);
     for (const auto& material : loaded.scene.materials)
-        if (!material.base.texture.empty()) hash.add(MappedFile(material.base.texture).text());
+        for (const auto& image : {material.base.texture, material.base.cutout})
+            if (!image.empty()) hash.add(MappedFile(image).text());
     loaded.hash = hash.hex();
     finishLoading(loaded);
     for (std::size_t i = 0; i < meshes.size(); ++i)
@@ -205,7 +209,7 @@ DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request) {
         const Instance instance = keyed.at(frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = loaded.meshes[mesh].poly;
-        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}};
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}, !poly.colors.empty()};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
         placed.materials.insert(placed.materials.end(), cutMaterials.begin(), cutMaterials.end());
         for (const auto material : placed.materials) placed.lineRecords.push_back(lineRecord(draw, instance, materials.materials[material]));
@@ -249,7 +253,12 @@ SceneFacts sceneFacts(const DrawScene& scene) {
     facts.sections = !scene.sections.empty();
     facts.hatched = std::any_of(scene.materials.begin(), scene.materials.end(), [](const auto& material) { return material.hatch.spacing > 0; });
     for (const auto& instance : scene.instances)
-        for (const auto material : instance.materials) facts.textured = facts.textured || !scene.materials[material].texture.empty();
+        for (const auto number : instance.materials) {
+            const Material& material = scene.materials[number];
+            facts.textured = facts.textured || !material.texture.empty() || !material.cutout.empty();
+            facts.cutouts = facts.cutouts || !material.cutout.empty();
+            facts.vertexColors = facts.vertexColors || (instance.hasColors && material.vertexColors);
+        }
     for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;
     return facts;
 }

@@ -41,6 +41,7 @@ ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, in
     request.imageSize = config.image.size;
     request.block = tile.block, request.tile = tile.rect;
     request.split = split;
+    request.lineSamples = config.image.lineSamples;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.dpi = config.image.dpi;
     request.guard = guard;
@@ -273,7 +274,7 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
             meshOf.push_back(shared[mesh]);
         }
     }
-    const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices)};
+    const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices), has(needs, SceneData::colors)};
     std::vector<TriMesh> meshes(builds.size());
     tbb::parallel_for(std::size_t{0}, builds.size(), [&](std::size_t i) {
         const PolyMesh& poly = loaded.meshes[builds[i].mesh].poly;

@@ -68,12 +68,12 @@ std::vector<Material> parseMtl(std::string_view text, const std::filesystem::pat
             specular = readColor(cursor);
         } else if (keyword == "Ns") {
             if (!cursor.number(exponent) || !std::isfinite(exponent)) exponent = 0;
-        } else if (keyword == "map_Kd") {
+        } else if (keyword == "map_Kd" || keyword == "map_d") {
             std::string file(mapFile(cursor));
             std::replace(file.begin(), file.end(), '\\', '/');
             if (file.empty()) return;
             const auto path = folder / file;
-            if (fileExists(path)) materials.back().texture = path.string();
+            if (fileExists(path)) (keyword == "map_d" ? materials.back().cutout : materials.back().texture) = path.string();
             else found.add(fmt::format("texture '{}' is missing; drawn without", path.string()), number);
         }
     });

@@ -1,5 +1,6 @@
 #include "scene/obj.h"
 
+#include "base/color.h"
 #include "base/file.h"
 #include "scene/obj_text.h"
 
@@ -30,6 +31,7 @@ struct StateChange {
 /// What one piece of the file holds; indices that count from its end are not yet resolved.
 struct Chunk {
     std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> colors;               ///< of the first positions, as the file has them; the others have none
     std::vector<glm::vec2> uvs;
     std::vector<glm::vec3> normals;
     struct Corner { std::int64_t position; std::int32_t uv, normal; };
@@ -43,6 +45,8 @@ struct Chunk {
     WarningList warnings;
     int lines = 0;
 };
+
+const glm::vec3 kNoColor(-1);
 
 constexpr std::int32_t kBadIndex = std::numeric_limits<std::int32_t>::min();
 
@@ -90,6 +94,25 @@ void readFace(Cursor cursor, Chunk& chunk, int line) {
     chunk.faceLine.push_back(line);
 }
 
+/// What follows a vertex's place: a weight, which means nothing here, or red, green and blue (and perhaps alpha).
+void readColor(Cursor& cursor, Chunk& chunk, int line) {
+    double rgb[3] = {};
+    int count = 0;
+    while (count < 3 && cursor.number(rgb[count])) ++count;
+    if (count < 3) {
+        if (count != 1 || !cursor.atEnd()) chunk.warnings.add("vertex with something that is neither weight nor colour; drawn without", line);
+        return;
+    }
+    glm::vec3 color(rgb[0], rgb[1], rgb[2]);
+    for (int k = 0; k < 3; ++k) {
+        if (color[k] >= 0 && color[k] <= 255) continue;
+        chunk.warnings.add("vertex colour below 0 or above 255; clamped", line);
+        color[k] = color[k] > 255 ? 255.0f : 0.0f;   // also what is no number
+    }
+    chunk.colors.resize(chunk.positions.size() - 1, kNoColor);
+    chunk.colors.push_back(color);
+}
+
 void readLine(std::string_view text, int line, Chunk& chunk) {
     Cursor cursor{text.data(), text.data() + text.size()};
     cursor.skipBlanks();
@@ -111,8 +134,9 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
     double n[4] = {};
     const auto change = [&](StateChange::Kind kind, std::string name, std::uint32_t group) { chunk.changes.push_back({kind, chunk.faceEnd.size(), std::move(name), group}); };
     if (keyword == "v") {
-        numbers(n, 3, 0);  // a weight or a colour may follow
+        numbers(n, 3, 0);
         chunk.positions.emplace_back(n[0], n[1], n[2]);
+        if (!cursor.atEnd()) readColor(cursor, chunk, line);
     } else if (keyword == "vn") {
         numbers(n, 3, 0);
         chunk.normals.emplace_back(n[0], n[1], n[2]);
@@ -201,11 +225,13 @@ public:
             positions += static_cast<std::int64_t>(chunk.positions.size());
             uvs += static_cast<std::int32_t>(chunk.uvs.size());
             normals += static_cast<std::int32_t>(chunk.normals.size());
+            if (!chunk.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), kNoColor), append(mesh_.colors, chunk.colors);
             append(mesh_.positions, chunk.positions);
             append(mesh_.uvs, chunk.uvs);
             append(mesh_.normals, chunk.normals);
             append(mesh_.materialLibraries, chunk.libraries);
         }
+        finishColors(warnings);
         usable_.resize(mesh_.positions.size());
         tbb::parallel_for(std::size_t{0}, mesh_.positions.size(), [&](std::size_t i) {
             const auto& p = mesh_.positions[i];
@@ -230,6 +256,19 @@ public:
     int firstOutOfRange = 0;
 
 private:
+    /// From display-encoded numbers up to 1, or up to 255, to linear ones. Vertices without a colour are white.
+    void finishColors(WarningList& warnings) {
+        if (mesh_.colors.empty()) return;
+        mesh_.colors.resize(mesh_.positions.size(), kNoColor);
+        const bool bytes = std::any_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return std::max({c.r, c.g, c.b}) > 1; });
+        if (bytes) warnings.add("vertex colours go above 1; read as 0 to 255", 0);
+        tbb::parallel_for(std::size_t{0}, mesh_.colors.size(), [&](std::size_t i) {
+            glm::vec3& color = mesh_.colors[i];
+            if (color == kNoColor) color = glm::vec3(1);
+            else for (int k = 0; k < 3; ++k) color[k] = srgbToLinear(bytes ? color[k] / 255 : color[k]);
+        });
+    }
+
     void addFaces(const Chunk& chunk, int lineBase, WarningList& warnings) {
         for (const auto& [text, line] : chunk.tags) tags_.emplace_back(text, lineBase + line);
         std::size_t change = 0, start = 0;

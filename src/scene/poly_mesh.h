@@ -31,6 +31,7 @@ struct PolyMesh {
 
     std::vector<glm::dvec3> positions;      ///< file units
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec3> colors;          ///< of each position, linear Rec.709; empty when no vertex has one
     std::vector<glm::vec3> normals;         ///< as given: not necessarily unit length
 
     std::vector<std::uint32_t> faceStart{0};         ///< faces + 1 entries; corners of face f are [faceStart[f], faceStart[f+1]), three or more

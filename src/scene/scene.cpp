@@ -95,6 +95,8 @@ constexpr Field kMaterial[] = {
     field<&Material::lineColor>("line_color", {.doc = "Colour of the lines of objects of this material; \"same\": as elsewhere."}),
     field<&Material::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180, .doc = "Smallest angle between normals that is drawn on objects of this material; 0: as elsewhere."}),
     field<&Material::texture>("texture", {.doc = "Image multiplied onto the colour, relative to the scene file."}),
+    field<&Material::cutout>("cutout", {.doc = "Image that cuts holes where its alpha (its brightness, if it has none) is below one half; relative to the scene file."}),
+    field<&Material::vertexColors>("vertex_colors", {.doc = "Multiply the mesh's vertex colours, where it has any, onto the colour."}),
     field<&Material::shininess>("shininess", {.min = 0, .max = 10000, .doc = "Exponent of the highlight; none at 1 or below."}),
     field<&Material::specular>("specular", {.min = 0, .max = 10, .doc = "Strength of the highlight."}),
 };
@@ -204,6 +206,7 @@ private:
     void readMaterial(const Node& node) {
         auto material = readTable<Material>(node, kMaterial, "[[material]]");
         material.base.texture = resolveFile(node, "texture", material.base.texture);
+        material.base.cutout = resolveFile(node, "cutout", material.base.cutout);
         if (!materialNames_.insert(material.base.name).second) fail(node, fmt::format("there are two materials named '{}'", material.base.name), "give each its own name");
         scene_.materials.push_back(std::move(material));
     }

@@ -44,6 +44,8 @@ struct Material {
     std::string name;
     Color color = kPaperGrey;
     std::string texture;        ///< image file multiplied onto the colour; empty = none
+    std::string cutout;         ///< image file: where its alpha, or without alpha its brightness, is below one half there is nothing; empty = none
+    bool vertexColors = true;   ///< multiply the mesh's vertex colours, where it has any, onto the colour
     float shininess = 0;        ///< Blinn–Phong exponent; no highlight at 1 or below
     float specular = 1;         ///< strength of the highlight
     bool lines = true;          ///< are lines drawn?

@@ -5,6 +5,7 @@
 #include "config/document.h"
 #include "geometry/subdivide.h"
 #include "geometry/topology.h"
+#include "render/config.h"
 #include "scene/obj.h"
 #include "scene/scene.h"
 
@@ -20,17 +21,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         limn::ObjFile file = limn::parseObj(text, "fuzz", 1 + static_cast<int>(size % 5));
         limn::repairTopology(file.mesh, file.warnings);
         static_cast<void>(limn::analyseTopology(file.mesh));
-        static_cast<void>(limn::buildTriMesh(file.mesh, {true, true, size % 2 == 0}));
+        static_cast<void>(limn::buildTriMesh(file.mesh, {true, true, size % 2 == 0, true}));
         limn::SubdivisionOptions options = limn::withTags({}, file.mesh.tags);
         options.level = 1;
         options.safe = size % 3 == 0;
         // Refinement is forty times slower when watched this closely.
-        if (file.mesh.faceCount() < 24) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false}, "fuzz"));
+        if (file.mesh.faceCount() < 24) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false, true}, "fuzz"));
 #elif defined(FUZZ_MTL)
         std::vector<limn::MeshWarning> warnings;
         static_cast<void>(limn::parseMtl(text, ".", warnings));
 #else
-        static_cast<void>(limn::parseScene(limn::parseDocument(text, "fuzz"), "fuzz.toml"));
+        const limn::Node document = limn::parseDocument(text, "fuzz");
+        // A text that is no scene may be a config, and the other way round.
+        try {
+            static_cast<void>(limn::parseScene(document, "fuzz.toml"));
+        } catch (const limn::Errors&) {
+        }
+        static_cast<void>(limn::parseRenderConfig(document, "fuzz.toml"));
 #endif
     } catch (const limn::Error&) {
     } catch (const limn::Errors&) {

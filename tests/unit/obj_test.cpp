@@ -47,6 +47,31 @@ TEST(Obj, mendsWithOneWarningPerKind) {
         }
 }
 
+TEST(Obj, readsColoursOfVertices) {
+    const std::string text = "v 0 0 0\nv 1 0 0 1 0 0.5\nv 1 1 0 0.5\nv 0 1 0 0 1 0 1\nf 1 2 3 4\n";
+    for (const int chunks : {1, 2, 4}) {
+        const auto file = parse(text, chunks);
+        EXPECT_TRUE(file.warnings.empty());
+        ASSERT_EQ(file.mesh.colors.size(), 4u);
+        EXPECT_EQ(file.mesh.colors[0], glm::vec3(1)) << "white where there is none";
+        EXPECT_EQ(file.mesh.colors[1].r, 1);
+        EXPECT_NEAR(file.mesh.colors[1].b, 0.2140411, 1e-6) << "0.5 display-encoded";
+        EXPECT_EQ(file.mesh.colors[2], glm::vec3(1)) << "one number is a weight";
+        EXPECT_EQ(file.mesh.colors[3], glm::vec3(0, 1, 0)) << "alpha is no colour";
+    }
+    EXPECT_TRUE(parse(kSquare + std::string("f 1 2 3 4\n")).mesh.colors.empty());
+
+    const auto bytes = parse("v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 1 1 0 0 0 0\nf 1 2 3\n");
+    EXPECT_TRUE(warned(bytes, "0 to 255"));
+    EXPECT_EQ(bytes.mesh.colors[0].r, 1);
+    EXPECT_NEAR(bytes.mesh.colors[0].b, 0.0331048, 1e-6);
+
+    const auto odd = parse("v 0 0 0 nan 0.5 -1\nv 1 0 0 0.5 0.5\nv 1 1 0 blue\nf 1 2 3\n");
+    EXPECT_TRUE(warned(odd, "clamped"));
+    EXPECT_TRUE(warned(odd, "neither weight nor colour"));
+    for (const auto& c : odd.mesh.colors) EXPECT_TRUE(c.r >= 0 && c.r <= 1 && c.b >= 0 && c.b <= 1);
+}
+
 TEST(Obj, refusesWhatCannotBeTrusted) {
     for (const char* text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 4 5 6\nf 1 2 3\n", "f 1 2 3\n", "garbage \x01\x02"}) {
         try {
@@ -160,7 +185,7 @@ TEST(TriMesh, farFromTheOriginKeepsItsShape) {
 
 TEST(Mtl, readsColoursTexturesAndHighlights) {
     std::vector<MeshWarning> warnings;
-    const auto materials = parseMtl("newmtl red paint\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 80\nmap_Kd -s 2 2 1 missing file.png\nnewmtl grey\nKd 0.5\n", "/nowhere", warnings);
+    const auto materials = parseMtl("newmtl red paint\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 80\nmap_Kd -s 2 2 1 missing file.png\nmap_d leaf.png\nnewmtl grey\nKd 0.5\n", "/nowhere", warnings);
     ASSERT_EQ(materials.size(), 2u);
     EXPECT_EQ(materials[0].name, "red paint");
     EXPECT_EQ(materials[0].color, (Color{1, 0, 0}));
@@ -168,8 +193,9 @@ TEST(Mtl, readsColoursTexturesAndHighlights) {
     EXPECT_TRUE(materials[0].texture.empty());
     EXPECT_EQ(materials[1].color, (Color{0.5f, 0.5f, 0.5f}));
     EXPECT_EQ(materials[1].shininess, 0) << "no highlight without a specular colour";
-    ASSERT_EQ(warnings.size(), 1u);
+    ASSERT_EQ(warnings.size(), 2u);
     EXPECT_NE(warnings[0].kind.find("missing file.png"), std::string::npos);
+    EXPECT_NE(warnings[1].kind.find("leaf.png"), std::string::npos);
 }
 
 }  // namespace

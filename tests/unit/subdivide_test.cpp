@@ -265,6 +265,32 @@ TEST(Subdivision, creasesOnNonManifoldPiecesAreTakenTheSafeWay) {
     for (const auto& p : out.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+TEST(Subdivision, coloursAreBilinearBetweenTheCagesVertices) {
+    // A quad and a triangle beside it. However it is subdivided, a corner of the cage keeps its colour, edges blend their ends', and the middle of the quad
+    // has the mean of its four.
+    PolyMesh cage = parseObj("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 2 0 0 0 0 0\nf 1 2 3 4\nf 2 5 3\n", "cage").mesh;
+    const auto colorsAt = [](const TriMesh& mesh, const glm::dvec3& place) {
+        std::vector<glm::vec3> found;
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+            if (glm::distance(glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.pivot, place) < 1e-5) found.push_back(mesh.colors[mesh.colorIndices.empty() ? mesh.indices[i] : mesh.colorIndices[i]]);
+        return found;
+    };
+    for (const auto& [what, options, unified] : std::initializer_list<std::tuple<const char*, SubdivisionOptions, bool>>{
+             {"Bfr", {.scheme = SubdivisionScheme::bilinear}, false}, {"uniform", {.scheme = SubdivisionScheme::bilinear, .limit = false}, false}, {"unified", {.scheme = SubdivisionScheme::bilinear}, true}}) {
+        const TriMesh mesh = subdivide(cage, options, {false, false, unified, true}, "cage");
+        const std::pair<glm::dvec3, glm::vec3> expected[] = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 0}, {0, 0, 1}}, {{0.5, 0, 0}, {0.5f, 0.5f, 0}}, {{0.5, 0.5, 0}, {0.5f, 0.5f, 0.5f}}, {{1.5, 0, 0}, {0, 0.5f, 0}}};
+        for (const auto& [place, color] : expected) {
+            const auto found = colorsAt(mesh, place);
+            ASSERT_FALSE(found.empty()) << what;
+            for (const auto& c : found) EXPECT_LT(glm::distance(c, color), 1e-6f) << what << ' ' << place.x << ' ' << place.y;
+        }
+    }
+    // Smooth surfaces move, but their colours stay between those of the cage.
+    const TriMesh smooth = subdivide(cage, {}, {true, true, false, true}, "cage");
+    ASSERT_EQ(smooth.colorIndices.size(), smooth.indices.size());
+    for (const auto& c : smooth.colors) EXPECT_TRUE(glm::all(glm::greaterThanEqual(c, glm::vec3(-1e-6f))) && glm::all(glm::lessThanEqual(c, glm::vec3(1 + 1e-6f))));
+}
+
 TEST_F(Shapes, modelsThatCorruptBfrAreTakenTheSafeWay) {
     // Run this one under valgrind and with sanitizers: Bfr 3.5 writes out of bounds on some of these. Without repair too, which drops the
     // back sides that make a plant's leaves closed pieces with vertices of two faces.

@@ -43,11 +43,6 @@ Hit intersect(Surface s, dvec2 pixelCentre) {
     return Hit(t, vec2(dvec2(along(cross(q, s.edge2), s.plane), along(cross(s.edge1, q), s.plane)) / (size != 0.0lf ? size : 1.0lf)));
 }
 
-vec2 uvAt(ivec3 corners, vec2 weights) {
-    vec2 first = texelFetch(uvs, corners.x).xy;
-    return first + weights.x * (texelFetch(uvs, corners.y).xy - first) + weights.y * (texelFetch(uvs, corners.z).xy - first);
-}
-
 void writeBackground() {
 #ifdef WRITES_depth
     write_depth(vec4(BACKGROUND_DEPTH));
@@ -86,7 +81,7 @@ void main() {
     uint number = id.x - 1u, triangle = id.y;
     Instance instance = instanceAt(number);
 
-#if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) || (defined(WRITES_albedo) && defined(TEXTURED))
+#if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
     ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
     vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz, p2 = texelFetch(positions, corners.z).xyz;
     Surface s;
@@ -148,14 +143,22 @@ void main() {
 #ifdef WRITES_albedo
     Material look = materialAt(material);
 #ifdef TEXTURED
-    ivec3 uvCorners = int(instance.firstUv) + ivec3(texelFetch(triangleUvs, int(instance.firstTriangle + triangle)).xyz);
-    vec2 uv = uvAt(uvCorners, weights);
+    ivec3 places = uvCorners(instance, triangle);
+    vec2 uv = uvAt(places, weights);
     // How uv changes across the part of the pixel that the sample stands for, on the triangle's whole plane.
     double part = 1.0lf / double(view.raster);
-    vec2 here = uvAt(uvCorners, hit.weights);
-    vec2 uvX = uvAt(uvCorners, intersect(s, centre + dvec2(part, 0.0lf)).weights) - here;
-    vec2 uvY = uvAt(uvCorners, intersect(s, centre + dvec2(0.0lf, part)).weights) - here;
+    vec2 here = uvAt(places, hit.weights);
+    vec2 uvX = uvAt(places, intersect(s, centre + dvec2(part, 0.0lf)).weights) - here;
+    vec2 uvY = uvAt(places, intersect(s, centre + dvec2(0.0lf, part)).weights) - here;
     if (look.levels > 0) look.color *= sampleTexture(look, uv, uvX, uvY).rgb;
+#endif
+#ifdef VERTEX_COLORS
+    uint colorWords = colorWordsOf(number);
+    if (look.takesVertexColors && colorWords != NO_WORDS) {
+        int first = int(colorWords + 3u * triangle);
+        vec3 c0 = unpackColor(texelFetch(words, first).r), c1 = unpackColor(texelFetch(words, first + 1).r), c2 = unpackColor(texelFetch(words, first + 2).r);
+        look.color *= c0 + weights.x * (c1 - c0) + weights.y * (c2 - c0);
+    }
 #endif
 #ifdef HATCHED
     look.color = hatched(look, vec2(pixel + view.origin) + 0.5);

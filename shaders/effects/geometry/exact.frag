@@ -1,5 +1,15 @@
 // Writes only which triangle is seen; exact.comp finds out everything else, once per pixel that is seen.
+#ifdef CUTOUTS
+#include "frame/scene.glsl"
+#include "frame/holes.glsl"
+in vec3 viewPoint;
+#endif
 
 flat in uvec2 seen;
 
-void main() { visibility = seen; }
+void main() {
+#ifdef CUTOUTS
+    if (isHole(seen.x - 1u, seen.y, viewPoint)) discard;
+#endif
+    visibility = seen;
+}

@@ -7,8 +7,14 @@ layout(location = 1) in uint instance;
 
 // Instance, counted from 1, and triangle. The provoking vertex, the last one, brings both: see numberByLastVertex in tri_mesh.h.
 flat out uvec2 seen;
+#ifdef CUTOUTS
+out vec3 viewPoint;
+#endif
 
 void main() {
     gl_Position = snapToGrid(view.clipFromView * vec4(viewFromMesh(instance, meshPoint), 1.0));
+#ifdef CUTOUTS
+    viewPoint = viewFromMesh(instance, meshPoint);
+#endif
     seen = uvec2(instance + 1u, uint(gl_VertexID) - firstVertexOf(instance));
 }

@@ -2,9 +2,12 @@
 #include "frame/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
-#if defined(WRITES_albedo) && defined(TEXTURED)
+#if (defined(WRITES_albedo) && defined(TEXTURED)) || defined(CUTOUTS)
 #include "lib/texture.glsl"
 in vec2 uvBetween;
+#endif
+#if defined(WRITES_albedo) && defined(VERTEX_COLORS)
+in vec3 colorBetween;
 #endif
 #ifdef WRITES_normal
 in vec3 normalBetween;
@@ -17,6 +20,13 @@ flat in uint instanceNumber;
 void main() {
     uint triangle = uint(gl_PrimitiveID);
     Instance instance = instanceAt(instanceNumber);
+#if defined(WRITES_material_id) || defined(WRITES_albedo) || defined(CUTOUTS)
+    uint material = triangleMaterial(instance, triangle);
+#endif
+#ifdef CUTOUTS
+    Material cut = materialAt(material);
+    if (sampleTexture(cut, uvBetween, dFdx(uvBetween), dFdy(uvBetween)).a < 0.5 && cut.hasHoles) discard;
+#endif
 #ifdef WRITES_depth
     // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
     depth = view.orthographic ? view.clipFar - gl_FragCoord.z * (view.clipFar - view.near) : 1.0 / gl_FragCoord.w;
@@ -46,9 +56,6 @@ void main() {
 #ifdef WRITES_line_record
     line_record = triangleLineRecord(instance, triangle);
 #endif
-#if defined(WRITES_material_id) || defined(WRITES_albedo)
-    uint material = triangleMaterial(instance, triangle);
-#endif
 #ifdef WRITES_material_id
     material_id = material + 1u;
 #endif
@@ -57,6 +64,9 @@ void main() {
 #ifdef TEXTURED
     vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);
     if (look.levels > 0) look.color *= sampleTexture(look, uvBetween, uvX, uvY).rgb;
+#endif
+#ifdef VERTEX_COLORS
+    if (look.takesVertexColors) look.color *= colorBetween;
 #endif
 #ifdef HATCHED
     look.color = hatched(look, gl_FragCoord.xy + vec2(view.origin));

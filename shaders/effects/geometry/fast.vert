@@ -7,9 +7,13 @@ layout(location = 1) in uint instance;
 layout(location = 2) in vec3 meshNormal;
 out vec3 normalBetween;
 #endif
-#if defined(WRITES_albedo) && defined(TEXTURED)
+#if (defined(WRITES_albedo) && defined(TEXTURED)) || defined(CUTOUTS)
+#define WITH_UVS
 layout(location = 3) in vec2 meshUv;
 out vec2 uvBetween;
+#endif
+#if defined(WRITES_albedo) && defined(VERTEX_COLORS)
+out vec3 colorBetween;
 #endif
 #if defined(WRITES_position) || defined(WRITES_normal) || defined(WRITES_normal_geometric)
 out vec3 viewPoint;
@@ -27,7 +31,11 @@ void main() {
     normalBetween = viewNormal(meshFromViewAt(instance), meshNormal);
     normalBetween /= max(length(normalBetween), 1e-30);
 #endif
-#if defined(WRITES_albedo) && defined(TEXTURED)
+#ifdef WITH_UVS
     uvBetween = meshUv;
+#endif
+#if defined(WRITES_albedo) && defined(VERTEX_COLORS)
+    uint colorWords = colorWordsOf(instance);
+    colorBetween = colorWords == NO_WORDS ? vec3(1) : unpackColor(texelFetch(words, int(colorWords) + gl_VertexID - int(firstVertexOf(instance))).r);
 #endif
 }

@@ -61,6 +61,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     const auto pass = [&](std::string name, std::vector<Read> reads, std::vector<Write> writes, std::string note) {
         Pass made;
         made.name = name + suffix;
+        made.rate = lineRate(graph);
         made.shader = "frame/" + name;
         made.reads = std::move(reads);
         made.writes = std::move(writes);
@@ -91,6 +92,10 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     }
     place.params = paramsBlock(kPlaceConstants, PlaceConstants{static_cast<float>(stroke.fade), static_cast<float>(stroke.taper), static_cast<float>(stroke.fadeFrom), static_cast<float>(1 / std::max(stroke.fadeTo - stroke.fadeFrom, 1e-6))});
     place.needs = SceneData::positions;
+    if (graph.scene().cutouts && graph.find(aov::visibility)) {
+        place.defines.emplace_back("CUTOUTS", "");
+        place.needs = place.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
+    }
     graph.add(std::move(place));
 
     const ResourceId first = graph.image("line_pieces" + suffix, Format::rg32ui), second = graph.image("line_pieces_beside" + suffix, Format::rg32ui);

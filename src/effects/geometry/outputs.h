@@ -6,7 +6,7 @@
 namespace limn {
 
 inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
-    const SceneData textures = graph.scene().textured ? SceneData::textures | SceneData::uvs : SceneData::none;
+    const SceneData textures = (graph.scene().textured ? SceneData::textures | SceneData::uvs : SceneData::none) | (graph.scene().vertexColors ? SceneData::colors : SceneData::none);
     const std::pair<const Aov*, SceneData> outputs[] = {
         {&aov::depth, SceneData::none},      {&aov::normal, SceneData::normals},
         {&aov::normalGeometric, SceneData::none}, {&aov::position, SceneData::none},
@@ -25,9 +25,17 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
     return writes;
 }
 
+/// What a raster pass needs to leave holes open.
+inline void cutHoles(const EffectBuilder& graph, Pass& raster) {
+    if (!graph.scene().cutouts) return;
+    raster.defines.emplace_back("CUTOUTS", "");
+    raster.needs = raster.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
+}
+
 inline std::vector<std::pair<std::string, std::string>> surfaceDefines(const EffectBuilder& graph) {
     std::vector<std::pair<std::string, std::string>> defines;
     if (graph.scene().textured) defines.emplace_back("TEXTURED", "");
+    if (graph.scene().vertexColors) defines.emplace_back("VERTEX_COLORS", "");
     if (graph.scene().hatched) defines.emplace_back("HATCHED", "");
     return defines;
 }
