@@ -38,4 +38,8 @@ std::string readFile(const std::filesystem::path& path);
 void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void replaceFile(const std::filesystem::path& path, std::string_view text);
 
+/// "room_####.exr" at 7 → "room_0007.exr".
+std::filesystem::path framePath(const std::filesystem::path& pattern, int frame);
+bool hasFrameNumber(const std::filesystem::path& pattern);
+
 }  // namespace limn

@@ -161,10 +161,34 @@ def sharpness(crease):
     return 10.0 * crease * crease
 
 
-def obj_text(mesh, slots, subsurf):
-    """One mesh in its own coordinates as OBJ. `subsurf`: the modifier to note as tags, or None to write normals instead."""
+def encoded(linear):
+    """A linear channel as OBJ files have it: display-encoded."""
+    linear = min(max(linear, 0.0), 1.0)
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+
+def vertex_colors(mesh):
+    """One linear colour per vertex, and whether the corners of a vertex differed and were averaged; None without colours."""
+    layer = mesh.color_attributes.active_color
+    if layer is None or len(layer.data) == 0:
+        return None, False
+    if layer.domain == "POINT":
+        return [tuple(item.color)[:3] for item in layer.data], False
+    sums, counts, firsts, differ = [(0.0, 0.0, 0.0)] * len(mesh.vertices), [0] * len(mesh.vertices), {}, False
+    for loop, item in zip(mesh.loops, layer.data):
+        vertex, color = loop.vertex_index, tuple(item.color)[:3]
+        differ = differ or firsts.setdefault(vertex, color) != color
+        sums[vertex] = tuple(a + b for a, b in zip(sums[vertex], color))
+        counts[vertex] += 1
+    return [tuple(c / max(1, count) for c in total) if count else (1.0, 1.0, 1.0) for total, count in zip(sums, counts)], differ
+
+
+def obj_text(mesh, slots, subsurf, colors=None):
+    """One mesh in its own coordinates as OBJ. `subsurf`: the modifier to note as tags, or None to write normals instead. `colors`: of each vertex."""
     lines = ["# limn exporter"]
-    lines += ["v %s %s %s" % tuple(number(c) for c in vertex.co) for vertex in mesh.vertices]
+    for vertex in mesh.vertices:
+        values = list(vertex.co) + ([encoded(c) for c in colors[vertex.index]] if colors else [])
+        lines.append("v " + " ".join(number(value) for value in values))
     uv_index, uv_lines = [], []
     layer = mesh.uv_layers.active
     if layer:
@@ -224,8 +248,46 @@ def subdivision_line(subsurf):
     return "subdivision = { scheme = %s, level = %d, limit = %s }" % (quoted(scheme), subsurf.render_levels, "true" if subsurf.use_limit_surface else "false")
 
 
+def principled(material):
+    """The material's Principled shader, or None."""
+    if material is not None and material.use_nodes and material.node_tree:
+        for node in material.node_tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                return node
+    return None
+
+
+def linked(socket):
+    """The node that feeds a socket, or None."""
+    return socket.links[0].from_node if socket is not None and socket.is_linked else None
+
+
+def takes_vertex_colors(material):
+    """Does its colour come from the mesh's colour attribute?"""
+    node = principled(material)
+    source = linked(node.inputs["Base Color"]) if node else None
+    return source is not None and source.type in {"VERTEX_COLOR", "ATTRIBUTE"}
+
+
+def cutout_image(material, left_out):
+    """The image whose alpha cuts holes into the material, or None."""
+    node = principled(material)
+    if node is None:
+        return None
+    source = linked(node.inputs["Alpha"])
+    if source is not None and source.type == "TEX_IMAGE" and source.image and material.blend_method != "OPAQUE":
+        if material.blend_method == "BLEND":
+            left_out.add("soft transparency (cut out where alpha is below one half)", material.name)
+        return source.image
+    if source is not None or node.inputs["Alpha"].default_value < 1:
+        left_out.add("transparency (drawn solid)", material.name)
+    return None
+
+
 def base_color(material, left_out):
     """Linear colour and texture file of a material."""
+    if takes_vertex_colors(material):
+        return (1.0, 1.0, 1.0), None
     if material.use_nodes and material.node_tree:
         for node in material.node_tree.nodes:
             if node.type != "BSDF_PRINCIPLED":
@@ -256,7 +318,10 @@ def texture_path(image, folder, taken, left_out):
         elif image.source == "GENERATED" or not os.path.isfile(source):
             name = os.path.splitext(name)[0] + ".png"
             target = os.path.join(folder, "textures", name)
-            copy = image.copy()
+            # A copy made by Blender would forget what was painted.
+            copy = bpy.data.images.new(image.name, image.size[0], image.size[1], alpha=True, float_buffer=image.is_float)
+            copy.colorspace_settings.name = image.colorspace_settings.name
+            copy.pixels = image.pixels[:]
             copy.filepath_raw, copy.file_format = target, "PNG"
             copy.save()
             bpy.data.images.remove(copy)
@@ -271,7 +336,7 @@ def texture_path(image, folder, taken, left_out):
 
 def camera_numbers(obj, depsgraph, width, height):
     """Position, view direction, up and lens of a camera, as limn describes them."""
-    world = obj.matrix_world
+    world = obj.matrix_world.copy()               # Blender changes its own with the frame
     position = world.translation
     forward = -(world.to_3x3().col[2]).normalized()
     up = world.to_3x3().col[1].normalized()
@@ -321,6 +386,8 @@ class Exporter:
         self.by_text = {}            # (OBJ text, subdivision) -> the same
         self.taken, self.taken_textures = set(), set()
         self.materials = {}          # Blender name -> lines
+        self.plain = set()           # names of those that take no colours of vertices
+        self.colored = False         # some mesh has them
         self.counts = {"meshes": 0, "instances": 0, "cameras": 0, "lights": 0}
 
     def run(self):
@@ -413,7 +480,11 @@ class Exporter:
                     self.left_out.add("mesh without faces", original.name)
                 return None
             slots = [self.material(slot.material) for slot in original.material_slots]
-            text = obj_text(mesh, slots, subsurf)
+            colors, differ = vertex_colors(mesh) if any(takes_vertex_colors(slot.material) for slot in original.material_slots) else (None, False)
+            self.colored = self.colored or colors is not None
+            if differ:
+                self.left_out.add("colours that differ between the faces at a vertex (averaged)", original.name)
+            text = obj_text(mesh, slots, subsurf, colors)
             look = (text, subdivision_line(subsurf) if subsurf else "")
             if not known and not moving and look in self.by_text:
                 known = self.meshes[key] = self.by_text[look]   # the same under another name: once is enough
@@ -456,14 +527,22 @@ class Exporter:
         if material.name not in self.materials:
             color, image = base_color(material, self.left_out)
             lines = ["[[material]]", "name = " + quoted(material.name), "color = " + vector([max(0.0, c) for c in color])]
+            path = None
             if image:
                 path = texture_path(image, self.folder, self.taken_textures, self.left_out)
                 if path:
                     lines.append("texture = " + quoted(path))
+            holes = cutout_image(material, self.left_out)
+            if holes:
+                path = path if image == holes and path else texture_path(holes, self.folder, self.taken_textures, self.left_out)
+                if path:
+                    lines.append("cutout = " + quoted(path))
             # Blender's own default is a transparent black: whoever wants black lines gives them some opacity.
             if tuple(material.line_color) != (0.0, 0.0, 0.0, 0.0):
                 lines.append("line_color = " + vector([max(0.0, c) for c in tuple(material.line_color)[:3]]))
             self.materials[material.name] = lines
+            if not takes_vertex_colors(material):
+                self.plain.add(material.name)
         return material.name
 
     # The files.
@@ -477,8 +556,8 @@ class Exporter:
             if known["name"] not in done:
                 lines += self.mesh_entry(known)
             done.add(known["name"])
-        for material in self.materials.values():
-            lines += material + [""]
+        for name, material in self.materials.items():
+            lines += material + (["vertex_colors = false"] if self.colored and name in self.plain else []) + [""]
         for name, track in tracks.items():
             lines += self.instance_entry(name, track, frames)
         for name, by_frame in cameras.items():

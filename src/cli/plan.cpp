@@ -20,8 +20,9 @@ struct PlanOptions {
 
 ExitCode runPlan(const PlanOptions& options) {
     const RenderConfig config = readRenderConfig(options.config, options.overrides);
-    const LoadedScene loaded = loadScene(config);
+    LoadedScene loaded = loadScene(config);
     const int frame = options.frame ? options.frame : loaded.scene.firstFrame();
+    goToFrame(loaded, frame);
     std::vector<double> milliseconds;
     int maxTextureSize = 16384;
     if (options.measure) {

@@ -208,6 +208,7 @@ ExitCode run(const Options& options) {
                 const glm::ivec2 size = renderOptions.crop.size.x > 0 ? renderOptions.crop.size : job.config.image.size;
                 FrameWriter writer(path, job.config.output.encode, size.y);
                 renderOptions.onBand = [&](const RenderedFrame& band) { writer.add(band); };
+                goToFrame(loaded, frame);
                 RenderedFrame rendered = renderer.render(job.config, loaded, frame, renderOptions);
                 if (done == 0) rendered.times.insert(rendered.times.begin(), {{"device", deviceMs}, {"load, beyond the device", std::max(0.0, loadMs - deviceMs)}});
                 if (rendered.nonFinite > 0) {

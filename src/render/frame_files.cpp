@@ -56,16 +56,4 @@ std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const 
     return writer.finish();
 }
 
-bool hasFrameNumber(const std::filesystem::path& pattern) { return pattern.string().find('#') != std::string::npos; }
-
-std::filesystem::path framePath(const std::filesystem::path& pattern, int frame) {
-    std::string text = pattern.string();
-    const auto first = text.find('#');
-    if (first == std::string::npos) return pattern;
-    auto last = first;
-    while (last < text.size() && text[last] == '#') ++last;
-    const std::string digits = fmt::format("{:0{}}", std::abs(frame), last - first);
-    return text.replace(first, last - first, (frame < 0 ? "-" : "") + digits);
-}
-
 }  // namespace limn

@@ -27,8 +27,4 @@ private:
 /// other data as EXR). Returns the files written, in order.
 std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options);
 
-/// "room_####.exr" at 7 → "room_0007.exr".
-std::filesystem::path framePath(const std::filesystem::path& pattern, int frame);
-bool hasFrameNumber(const std::filesystem::path& pattern);
-
 }  // namespace limn

@@ -65,6 +65,65 @@ private:
     std::map<std::pair<std::size_t, std::string>, std::uint32_t> byMesh_;
 };
 
+/// Reads one mesh and what belongs to it; returns the hash of it all.
+std::uint64_t readMesh(LoadedMesh& mesh, const MeshSource& source, int frame) {
+    const std::filesystem::path path = framePath(source.file, frame);
+    const MappedFile file(path);
+    auto obj = parseObj(file.text(), path.string());
+    mesh = {std::move(obj.mesh), {}, std::move(obj.warnings)};
+    mesh.materials = readMaterials(path, mesh.poly, mesh.warnings);
+    if (!source.creases.empty()) readCreases(source.creases, mesh.poly);
+    if (source.subdivision.present || mesh.poly.cornerNormal.empty()) repairTopology(mesh.poly, mesh.warnings);
+    // Size and a sample of the text: reading every byte again would cost as much as parsing it.
+    Hash hash;
+    hash.add(std::to_string(file.text().size()));
+    constexpr std::size_t kPiece = 4096, kPieces = 64;
+    const std::size_t stride = std::max(kPiece, file.text().size() / kPieces);
+    for (std::size_t at = 0; at < file.text().size(); at += stride) hash.add(file.text().substr(at, kPiece));
+    for (const auto& material : mesh.materials) {
+        hash.add(fmt::format("{} {} {} {} {} {}", material.name, material.color.r, material.color.g, material.color.b, material.shininess, material.specular));
+        for (const auto& image : {material.texture, material.cutout})
+            if (!image.empty()) hash.add(MappedFile(image).text());
+    }
+    if (!source.creases.empty()) hash.add(MappedFile(source.creases).text());
+    return hash.value();
+}
+
+/// Reads these meshes, in parallel. All problems at once (Errors).
+void readMeshes(LoadedScene& loaded, const std::vector<std::size_t>& wanted) {
+    const auto& sources = loaded.scene.meshes;
+    std::vector<std::vector<Error>> failed(wanted.size());
+    tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t w) {
+        const std::size_t i = wanted[w];
+        try {
+            loaded.meshHashes[i] = readMesh(loaded.meshes[i], sources[i], loaded.frame);
+        } catch (const Error& error) {
+            failed[w].push_back(error);
+        } catch (const Errors& list) {
+            failed[w] = list.list;
+        }
+    });
+    ErrorCollector errors;
+    for (const auto& list : failed)
+        for (const auto& error : list) errors.add(error);
+    errors.throwIfAny();
+    for (const std::size_t i : wanted)
+        for (const auto& warning : loaded.meshes[i].warnings)
+            log::warning("{}{}: {}{}", framePath(sources[i].file, loaded.frame).string(), warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
+}
+
+void combineHashes(LoadedScene& loaded) {
+    Hash hash;
+    hash.add(&loaded.sceneHash, sizeof loaded.sceneHash);
+    for (const auto value : loaded.meshHashes) hash.add(&value, sizeof value);
+    loaded.hash = hash.hex();
+}
+
+std::uint64_t nextSceneNumber() {
+    static std::atomic<std::uint64_t> count = 0;
+    return ++count;
+}
+
 }  // namespace
 
 std::size_t meshIndex(const Scene& scene, const std::string& name) {
@@ -87,14 +146,25 @@ std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const 
 }
 
 void finishLoading(LoadedScene& loaded) {
-    static std::atomic<std::uint64_t> count = 0;
-    loaded.number = ++count;
+    loaded.number = nextSceneNumber();
     loaded.bounds = {};
     const double first = loaded.scene.firstFrame();
     for (const auto& instance : loaded.scene.instances) {
         const Instance placed = instance.at(first);
         loaded.bounds.add(instanceBounds(loaded.meshes[meshIndex(loaded.scene, placed.mesh)].poly, placed.transform()));
     }
+}
+
+void goToFrame(LoadedScene& loaded, int frame) {
+    if (frame == loaded.frame) return;
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < loaded.meshes.size(); ++i)
+        if (hasFrameNumber(loaded.scene.meshes[i].file) && loaded.meshes[i].poly.faceCount() > 0) wanted.push_back(i);
+    loaded.frame = frame;
+    if (wanted.empty()) return;
+    readMeshes(loaded, wanted);
+    combineHashes(loaded);
+    loaded.number = nextSceneNumber();
 }
 
 LoadedScene loadScene(const std::filesystem::path& path) { return loadScene(RenderConfig{.scene = path}); }
@@ -113,52 +183,21 @@ LoadedScene loadScene(const RenderConfig& config) {
     std::vector<bool> drawn(meshes.size());
     for (const auto& instance : loaded.scene.instances) drawn[meshIndex(loaded.scene, instance.base.mesh)] = true;
 
-    std::vector<std::uint64_t> hashes(meshes.size());
-    std::vector<std::vector<Error>> failed(meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
-        if (!drawn[i]) return;
-        try {
-            const MappedFile file(meshes[i].file);
-            auto obj = parseObj(file.text(), meshes[i].file);
-            loaded.meshes[i] = {std::move(obj.mesh), {}, std::move(obj.warnings)};
-            loaded.meshes[i].materials = readMaterials(meshes[i].file, loaded.meshes[i].poly, loaded.meshes[i].warnings);
-            if (!meshes[i].creases.empty()) readCreases(meshes[i].creases, loaded.meshes[i].poly);
-            if (meshes[i].subdivision.present || loaded.meshes[i].poly.cornerNormal.empty()) repairTopology(loaded.meshes[i].poly, loaded.meshes[i].warnings);
-            // Size and a sample of the text: reading every byte again would cost as much as parsing it.
-            Hash hash;
-            hash.add(std::to_string(file.text().size()));
-            constexpr std::size_t kPiece = 4096, kPieces = 64;
-            const std::size_t stride = std::max(kPiece, file.text().size() / kPieces);
-            for (std::size_t at = 0; at < file.text().size(); at += stride) hash.add(file.text().substr(at, kPiece));
-            for (const auto& material : loaded.meshes[i].materials) {
-                hash.add(fmt::format("{} {} {} {} {} {}", material.name, material.color.r, material.color.g, material.color.b, material.shininess, material.specular));
-                for (const auto& image : {material.texture, material.cutout})
-                    if (!image.empty()) hash.add(MappedFile(image).text());
-            }
-            if (!meshes[i].creases.empty()) hash.add(MappedFile(meshes[i].creases).text());
-            hashes[i] = hash.value();
-        } catch (const Error& error) {
-            failed[i].push_back(error);
-        } catch (const Errors& list) {
-            failed[i] = list.list;
-        }
-    });
-    ErrorCollector errors;
-    for (const auto& list : failed)
-        for (const auto& error : list) errors.add(error);
-    errors.throwIfAny();
+    loaded.frame = loaded.scene.firstFrame();
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        if (drawn[i]) wanted.push_back(i);
+    loaded.meshHashes.resize(meshes.size());
+    readMeshes(loaded, wanted);
 
     Hash hash;
     for (const auto& file : files) hash.add(readFile(file));
-    for (const auto value : hashes) hash.add(&value, sizeof value);
     for (const auto& material : loaded.scene.materials)
         for (const auto& image : {material.base.texture, material.base.cutout})
             if (!image.empty()) hash.add(MappedFile(image).text());
-    loaded.hash = hash.hex();
+    loaded.sceneHash = hash.value();
+    combineHashes(loaded);
     finishLoading(loaded);
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        for (const auto& warning : loaded.meshes[i].warnings)
-            log::warning("{}{}: {}{}", meshes[i].file, warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
     return loaded;
 }
 

@@ -26,16 +26,22 @@ struct LoadedScene {
     std::vector<LoadedMesh> meshes;         ///< beside Scene::meshes; empty where no instance draws the mesh
     Bounds bounds;                          ///< of the drawn instances at the first declared frame
     std::string hash;                       ///< of every file that went in
+    std::uint64_t sceneHash = 0;            ///< of those that are no meshes
+    std::vector<std::uint64_t> meshHashes;
+    int frame = 1;                          ///< at which meshes that have a file per frame stand
     std::uint64_t number = 0;               ///< tells one loaded scene from another within the process
 };
 
 /// What loadScene does once the meshes are there: bounds, hash, number. For scenes that do not come from files.
 void finishLoading(LoadedScene& loaded);
 
-/// Reads the scene that a config names and every mesh that is drawn, in parallel. All problems at once (Errors).
+/// Reads the scene that a config names and every mesh that is drawn, in parallel; those with a file per frame at the first declared one. All problems at once (Errors).
 LoadedScene loadScene(const std::filesystem::path& path);
 /// The scene of a config. Throws Error (usage) where `subdivide` is asked of a scene that says itself what is subdivided.
 LoadedScene loadScene(const RenderConfig& config);
+
+/// Reads the meshes that have a file per frame anew, where that is another frame. What is relative to the scene's size stays relative to the first.
+void goToFrame(LoadedScene& loaded, int frame);
 
 /// What a picture wants of a scene.
 struct FrameRequest {

@@ -30,7 +30,7 @@ constexpr Field kUnits[] = {
 
 constexpr Field kMesh[] = {
     field<&MeshSource::name>("name", {.required = true, .doc = "Name by which instances call the mesh."}),
-    field<&MeshSource::file>("file", {.required = true, .doc = "OBJ file, relative to the scene file."}),
+    field<&MeshSource::file>("file", {.required = true, .doc = "OBJ file, relative to the scene file; with #### for the number of the frame, a file for each that the scene declares."}),
     field<&MeshSource::creases>("creases", {.doc = "Sidecar for files without subdivision tags: a TOML file with creases = [[vertex, vertex, sharpness], ...] and corners = [[vertex, sharpness], ...]; vertices count from 0, sharpness 10 is infinite."}),
 };
 
@@ -174,6 +174,18 @@ private:
         return path.string();
     }
 
+    /// A file per frame: all that the scene declares must be there.
+    std::string resolveFrames(const Node& node) {
+        const auto path = pathIn(node);
+        const FrameRange frames = scene_.frames.value_or(FrameRange{});
+        std::string first;
+        int missing = 0;
+        for (int frame = frames.first; frame <= frames.last; ++frame)
+            if (const auto file = framePath(path, frame); !fileExists(file) && missing++ == 0) first = file.string();
+        if (missing > 0) fail(node, fmt::format("'{}' does not exist{}", first, missing > 1 ? fmt::format(", nor do {} more of its frames", missing - 1) : ""), "#### stands for the number of each frame that the scene declares; paths are relative to the file that names them", ExitCode::missingInput);
+        return path.string();
+    }
+
     void readAnimation() {
         const Node* node = document_.find("animation");
         if (!node) return;
@@ -190,7 +202,7 @@ private:
         if (const Node* settings = node.find("subdivision")) readSubdivision(*settings, mesh.subdivision);
         mesh.creases = resolveFile(node, "creases", mesh.creases);
         mesh.where = node.where;
-        mesh.file = resolveFile(node, "file", mesh.file);
+        mesh.file = hasFrameNumber(mesh.file) ? resolveFrames(*node.find("file")) : resolveFile(node, "file", mesh.file);
         if (!meshNames_.insert(mesh.name).second) fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
         scene_.meshes.push_back(std::move(mesh));
     }

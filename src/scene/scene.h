@@ -98,7 +98,7 @@ struct SubdivisionSettings {
 
 struct MeshSource {
     std::string name;
-    std::string file;           ///< absolute, or relative to the working directory
+    std::string file;           ///< absolute, or relative to the working directory; #### is the frame number, where each frame has a file
     std::string creases;        ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;

@@ -144,6 +144,32 @@ add("Sun", sun, Euler((0.7, 0.2, 0.4)).to_matrix().to_4x4())
 area = bpy.data.lights.new("Window", "AREA")
 add("Window", area)
 
+# Colours of vertices, and a mask.
+painted = mesh_from("Painted", lambda bm: bmesh.ops.create_grid(bm, x_segments=1, y_segments=1, size=1), uvs=True)
+paint = painted.color_attributes.new("Paint", "FLOAT_COLOR", "POINT")
+for item, color in zip(paint.data, ((1, 0, 0, 1), (0, 0.5, 0, 1), (0, 0, 0.25, 1), (1, 1, 1, 1))):
+    item.color = color
+painted.color_attributes.active_color = paint
+material = bpy.data.materials.new("paint")
+material.use_nodes = True
+nodes, links = material.node_tree.nodes, material.node_tree.links
+source = nodes.new("ShaderNodeVertexColor")
+links.new(source.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+painted.materials.append(material)
+add("painted", painted, Matrix.Translation((0, 9, 3)))
+image = bpy.data.images.new("leaf", 8, 8, alpha=True)
+image.pixels = [c for y in range(8) for x in range(8) for c in (0.2, 0.6, 0.1, 1.0 if x < 4 else 0.0)]
+leaf = bpy.data.materials.new("leaf")
+leaf.use_nodes, leaf.blend_method = True, "CLIP"
+nodes, links = leaf.node_tree.nodes, leaf.node_tree.links
+source = nodes.new("ShaderNodeTexImage")
+source.image = image
+links.new(source.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+links.new(source.outputs["Alpha"], nodes["Principled BSDF"].inputs["Alpha"])
+foliage = mesh_from("Foliage", lambda bm: bmesh.ops.create_grid(bm, x_segments=1, y_segments=1, size=1))
+foliage.materials.append(leaf)
+add("foliage", foliage, Matrix.Translation((0, 12, -3)) @ Matrix.Diagonal((0.01, 0.01, 0.01, 1)))
+
 inked = bpy.data.materials.new("inked")
 inked.line_color = (0.8, 0.1, 0.05, 1)
 next(o for o in scene.objects if o.type == "MESH").data.materials.append(inked)

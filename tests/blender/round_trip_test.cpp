@@ -101,6 +101,31 @@ TEST_F(RoundTrip, lineColoursComeAlong) {
     EXPECT_EQ(inked, 1);
 }
 
+TEST_F(RoundTrip, coloursAndHolesComeAlong) {
+    const LoadedScene loaded = loadScene(folder() / "scene.toml");
+    int painted = 0, cut = 0;
+    for (const auto& mesh : loaded.meshes) {
+        if (mesh.poly.colors.empty()) continue;
+        ++painted;
+        const glm::vec3 expected[] = {{1, 0, 0}, {0, 0.5f, 0}, {0, 0, 0.25f}, {1, 1, 1}};
+        ASSERT_EQ(mesh.poly.colors.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(glm::distance(mesh.poly.colors[i], expected[i]), 1e-5f) << i;
+    }
+    for (const auto& material : loaded.scene.materials) {
+        EXPECT_EQ(material.base.vertexColors, material.base.name == "paint") << material.base.name;
+        EXPECT_EQ(material.base.cutout.empty(), material.base.name != "leaf") << material.base.name;
+        if (material.base.cutout.empty()) continue;
+        ++cut;
+        EXPECT_EQ(material.base.cutout, material.base.texture) << "one image serves as both";
+        const Image image = readImage(material.base.cutout);
+        ASSERT_EQ(image.channels, 4);
+        EXPECT_EQ(image.at(1, 1)[3], 1);
+        EXPECT_EQ(image.at(6, 1)[3], 0);
+    }
+    EXPECT_EQ(painted, 1);
+    EXPECT_EQ(cut, 1);
+}
+
 TEST_F(RoundTrip, outlinesAreBlendersWithinAPixel) {
     for (const char* camera : {"plain", "shifted", "upright_sensor", "orthographic"}) {
         ConfigOverrides overrides;

@@ -1,0 +1,42 @@
+// Meshes with a file for each frame.
+
+#include "base/file.h"
+#include "support/bench.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace limn::test {
+namespace {
+
+TEST(Sequence, drawsTheFileOfEachFrame) {
+    const TemporaryFolder folder;
+    for (const int frame : {2, 3, 4}) replaceFile(folder.path() / fmt::format("wall_{:03}.obj", frame), quadObj({-9, -9, -frame}, {9, -9, -frame}, {9, 9, -frame}, {-9, 9, -frame}));
+    const std::string scene = "[animation]\nframes = \"{}\"\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 4\n[[mesh]]\nname = 'wall'\nfile = 'wall_###.obj'\n";
+    replaceFile(folder.path() / "scene.toml", fmt::format(fmt::runtime(scene), "2-4"));
+    const RenderConfig config = makeConfig("[image]\nsize = [16, 16]\nsamples = 1\n[output]\naovs = ['depth']\n");
+    LoadedScene loaded = loadScene(folder.path() / "scene.toml");
+    EXPECT_EQ(loaded.frame, 2) << "the first that is declared";
+    const Bounds first = loaded.bounds;
+    std::string hash;
+    for (const int frame : {2, 3, 4, 3}) {
+        goToFrame(loaded, frame);
+        EXPECT_EQ(*draw(config, loaded, {}, frame).aov("depth").at(8, 8), 5 + frame);
+        EXPECT_EQ(loaded.bounds.lo, first.lo) << "what is relative to the scene does not change from frame to frame";
+        EXPECT_NE(loaded.hash, hash);
+        hash = loaded.hash;
+    }
+
+    replaceFile(folder.path() / "scene.toml", fmt::format(fmt::runtime(scene), "1-6"));
+    try {
+        loadScene(folder.path() / "scene.toml");
+        FAIL() << "frames 1, 5 and 6 have no file";
+    } catch (const Errors& errors) {
+        ASSERT_EQ(errors.list.size(), 1u);
+        EXPECT_EQ(errors.list[0].code, ExitCode::missingInput);
+        EXPECT_NE(errors.list[0].problem.find("wall_001.obj' does not exist, nor do 2 more"), std::string::npos) << errors.list[0].problem;
+    }
+}
+
+}  // namespace
+}  // namespace limn::test
