@@ -3,12 +3,14 @@
 // Built and run by tests/fuzz/run.sh with clang, AddressSanitizer and UndefinedBehaviorSanitizer. Errors are answers; crashes are not.
 
 #include "config/document.h"
+#include "geometry/far.h"
 #include "geometry/subdivide.h"
 #include "geometry/topology.h"
 #include "render/config.h"
 #include "scene/obj.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -25,8 +27,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         limn::SubdivisionOptions options = limn::withTags({}, file.mesh.tags);
         options.level = 1;
         options.safe = size % 3 == 0;
-        // Refinement is forty times slower when watched this closely.
-        if (file.mesh.faceCount() < 24) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false, true}, "fuzz"));
+        // Refinement is forty times slower when watched this closely: only as much of it as takes a second or two.
+        const int levels = std::min(std::max(limn::levelsOfCreases(file.mesh.tags), 5), 10);
+        if (file.mesh.faceCount() << levels < 800) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false, true}, "fuzz"));
 #elif defined(FUZZ_MTL)
         std::vector<limn::MeshWarning> warnings;
         static_cast<void>(limn::parseMtl(text, ".", warnings));
