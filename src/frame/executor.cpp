@@ -35,16 +35,9 @@ std::string samplers(const Graph& graph, const Pass& pass) {
 
 }  // namespace
 
-bool Executor::drawsScreen(const Pass& pass) const {
-    // Reading what stands in an image while changing it is for compute shaders alone.
-    bool updates = false;
-    for (const auto& write : pass.writes) updates = updates || write.update;
-    return device_.report().isSoftware && !updates;
-}
-
-const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view) {
+const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view, int samples) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-    const bool screen = pass.kind == Pass::Kind::compute && drawsScreen(pass);
+    const bool screen = pass.kind == Pass::Kind::compute && drawsScreen();
     const bool compute = pass.kind == Pass::Kind::compute && !screen;
     std::vector<gl::ShaderStage> stages;
     std::string head = prelude(graph, planned, view), outputs, names;
@@ -60,10 +53,13 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
         const auto channels = static_cast<std::size_t>(format.channels);
         const auto type = (format.glslPrefix == "u" ? integers : floats)[channels], wide = (format.glslPrefix == "u" ? integers : floats)[4];
         if (compute) {
-            outputs += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", slot++, format.glslImage, write.update ? "" : "writeonly", format.glslPrefix, write.name);
-            if (!write.update) outputs += fmt::format("void write_{0}({1} v) {{ imageStore({0}, ivec2(gl_GlobalInvocationID.xy), v); }}\n", write.name, wide);
-        } else if (screen) {
-            outputs += fmt::format("layout(location = {0}) out {1} out_{2};\nvoid write_{2}({3} v) {{ out_{2} = v.{4}; }}\n", slot++, type, write.name, wide, swizzles[channels]);
+            outputs += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", slot++, format.glslImage, write.mean ? "" : "writeonly", format.glslPrefix, write.name);
+            const std::string place = "ivec2(gl_GlobalInvocationID.xy)";
+            const std::string value = write.mean ? fmt::format("v * (1.0 / {}.0) + (view.sampleNumber > 0 ? imageLoad({}, {}) : vec4(0))", samples, write.name, place) : "v";
+            outputs += fmt::format("void write_{0}({1} v) {{ imageStore({0}, {2}, {3}); }}\n", write.name, wide, place, value);
+        } else if (screen) {   // sums are made by blending
+            const std::string value = write.mean ? fmt::format("(v * (1.0 / {}.0))", samples) : "v";
+            outputs += fmt::format("layout(location = {0}) out {1} out_{2};\nvoid write_{2}({3} v) {{ out_{2} = {5}.{4}; }}\n", slot++, type, write.name, wide, swizzles[channels], value);
         } else {
             outputs += fmt::format("layout(location = {}) out {} {};\n", slot++, type, write.name);
         }
@@ -92,7 +88,7 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
 void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
     const UniformBlock block = viewBlock(view);
     for (const auto& planned : plan.passes)
-        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, block);
+        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, block, view.split.samples());
 }
 
 void Executor::allocate(const Plan& plan) {
@@ -150,7 +146,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
             stamp();
             continue;
         }
-        const gl::Program& linked = program(graph, planned, block);
+        const gl::Program& linked = program(graph, planned, block, view.split.samples());
         linked.use();
         viewBuffer.bindUniform(0);
         std::optional<gl::Buffer> params;
@@ -159,7 +155,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         int unit = 0;
         for (const auto& read : pass.reads) texture(plan, read.resource).bindSampler(unit++);
         if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
-        else if (drawsScreen(pass)) runScreen(graph, plan, planned, view, linked);
+        else if (drawsScreen()) runScreen(graph, plan, planned, view, linked);
         else runCompute(graph, plan, planned);
         stamp();
     }
@@ -186,7 +182,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
         if (!planned.writes[w]) continue;
         const auto& image = texture(plan, pass.writes[w].resource);
         if (pass.mask >= 0) image.clear();
-        image.bindImage(slot++, pass.writes[w].update);
+        image.bindImage(slot++, pass.writes[w].mean);
         size = glm::max(size, image.size());
     }
     gl::dispatch(size, kGroup);
@@ -237,6 +233,9 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
     gl::setDepthTest(gl::DepthTest::none);
     gl::setViewport({0, 0}, colours.front()->size());
     const PixelRect part = neededPart(planned, view, colours.front()->size());
+    int colour = 0;
+    for (std::size_t w = 0; w < pass.writes.size(); ++w)
+        if (planned.writes[w]) gl::setAdding(colour++, pass.writes[w].mean && view.sample > 0);
     if (pass.mask >= 0) {
         for (const auto* image : colours) image->clear();
         const auto& mask = texture(plan, pass.reads[static_cast<std::size_t>(pass.mask)].resource);
@@ -257,6 +256,7 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
         const gl::Scissor scissor(part.origin, part.size);
         gl::drawScreen();
     }
+    while (colour > 0) gl::setAdding(--colour, false);
     gl::barrier();
 }
 

@@ -39,12 +39,12 @@ public:
     void resetMeasurements() { milliseconds_.clear(), transferMilliseconds_ = 0; }
 
 private:
-    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view);
+    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view, int samples);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
     void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
-    bool drawsScreen(const Pass& pass) const;
+    bool drawsScreen() const { return device_.report().isSoftware; }
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
 
     const gl::Device& device_;

@@ -256,6 +256,12 @@ Scissor::Scissor(glm::ivec2 origin, glm::ivec2 size) {
 Scissor::~Scissor() { glDisable(GL_SCISSOR_TEST); }
 
 void setViewport(glm::ivec2 origin, glm::ivec2 size) { glViewport(origin.x, origin.y, size.x, size.y); }
+void setAdding(int colour, bool adds) {
+    const auto number = static_cast<GLuint>(colour);
+    if (adds) glEnablei(GL_BLEND, number), glBlendEquationi(number, GL_FUNC_ADD), glBlendFunci(number, GL_ONE, GL_ONE);
+    else glDisablei(GL_BLEND, number);
+}
+
 void setDepthTest(DepthTest test) {
     if (test == DepthTest::none) return glDisable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_TEST);

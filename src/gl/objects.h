@@ -194,6 +194,8 @@ void drawPoints(int count, int size);                  ///< squares of so many p
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
 void setViewport(glm::ivec2 origin, glm::ivec2 size);
 void setDepthTest(DepthTest test);
+/// Is what is drawn into a framebuffer's colour image added to what stands there, or does it replace it?
+void setAdding(int colour, bool adds);
 void barrier();
 void finish();
 

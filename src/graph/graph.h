@@ -48,7 +48,7 @@ struct Write {
     ResourceId resource;
     SceneData needs = SceneData::none;   ///< scene data read only to write this
     glm::vec4 clear{0};         ///< raster passes: what stands where nothing is drawn
-    bool update = false;        ///< compute passes: read, changed and written back
+    bool mean = false;          ///< compute passes: the image is the mean of what all samples of a frame write
 };
 
 /// One drawing of the scene into a part of a raster pass's images.

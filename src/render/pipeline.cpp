@@ -2,41 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace limn {
 namespace {
-
-struct AccumulateConstants {
-    bool first = false, last = false;
-    float scale = 1;
-    glm::ivec2 offset{0};
-};
-constexpr Field kAccumulate[] = {
-    field<&AccumulateConstants::first>("first", {.doc = "Forget what was summed before."}),
-    field<&AccumulateConstants::last>("last", {.doc = "Turn the sum into the mean."}),
-    field<&AccumulateConstants::scale>("scale", {.doc = "One over the number of samples."}),
-    field<&AccumulateConstants::offset>("offset", {.unit = "pixels", .doc = "Where the picture begins in what was drawn."}),
-};
 
 void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) {
     builder.beginTechnique(std::string(choice.technique->slot), std::string(choice.technique->name));
     choice.technique->build(builder, choice.at(frame).get(), *choice.technique);
 }
 
-/// The mean of an AOV over the samples of each pixel, as an image of the region without its guard band.
+/// The mean of an AOV over the samples of each pixel. Where nothing else reads the AOV, the pass that makes it adds it up itself; else another one does.
 ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
+    const ResourceId image = builder.read(aov);
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
-    const ResourceId sum = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size - 2 * view.guard, true});
-    const int samples = view.split.samples();
+    const std::string note = fmt::format("mean of {} samples", view.split.samples());
+    const auto reads = [&](const Pass& pass) { return std::any_of(pass.reads.begin(), pass.reads.end(), [&](const Read& read) { return read.resource == image; }); };
+    if (std::none_of(graph.passes.begin(), graph.passes.end(), reads))
+        for (Pass& pass : graph.passes)
+            for (Write& write : pass.writes) {
+                if (write.resource != image || pass.kind != Pass::Kind::compute || pass.rate != Pass::Rate::sample || pass.mask >= 0) continue;
+                Resource& made = graph.resources[static_cast<std::size_t>(image.index)];
+                write.mean = true, made.persistent = true, made.format = format;
+                pass.note += (pass.note.empty() ? "" : ", ") + note;
+                return image;
+            }
+    const ResourceId mean = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size, true});
     Pass pass;
     pass.name = fmt::format("accumulate_{}", aov.name);
     pass.shader = "frame/accumulate";
-    pass.reads = {{"source", builder.read(aov)}};
-    pass.writes = {{"sum", sum, SceneData::none, glm::vec4(0), true}};
-    pass.params = paramsBlock(kAccumulate, AccumulateConstants{view.sample == 0, view.sample + 1 == samples, 1.0f / static_cast<float>(samples), glm::ivec2(view.guard)});
-    pass.note = fmt::format("{} samples", samples);
+    pass.reads = {{"source", image}};
+    pass.writes = {{"mean", mean, SceneData::none, glm::vec4(0), true}};
+    pass.note = note;
     builder.beginTechnique("samples", "accumulate");
     builder.add(std::move(pass));
-    return sum;
+    return mean;
 }
 
 }  // namespace

@@ -29,10 +29,11 @@ void main() {
     // Intensity changes this much over the wanted width of a band's edge.
     float width = params.edgeSoftness <= 0.0 ? 0.0 : params.edgeSoftness * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
 
+    float steepness = 1.0 / max(width, 1e-6);
     vec3 level = params.bands[0].rgb;
     for (int i = 1; i < BAND_COUNT; ++i) {
         float beyond = intensity + BAND_BIAS - params.bands[i].a;
-        float reached = width > 1e-6 ? clamp(beyond / width + 0.5, 0.0, 1.0) : (beyond >= 0.0 ? 1.0 : 0.0);
+        float reached = width > 1e-6 ? clamp(beyond * steepness + 0.5, 0.0, 1.0) : (beyond >= 0.0 ? 1.0 : 0.0);
         level += (params.bands[i].rgb - params.bands[i - 1].rgb) * reached;
     }
 #ifdef COLORED_LIGHT

@@ -80,7 +80,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     const Read mask{"nearLines", near, kMaskTile};
 
     const ResourceId crossings = graph.image("line_crossings" + suffix, Format::rg32ui);
-    Pass place = pass("line_places", {mask, {"sides", sides}, {"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}}, {{"result", crossings}}, "to 1/256 pixel");
+    Pass place = pass("line_places", {{"lineTiles", tiles, kMaskTile}, {"sides", sides}, {"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}}, {{"result", crossings}}, "to 1/256 pixel");
     place.mask = 0;
     if (const auto visibility = graph.find(aov::visibility)) {
         place.defines.emplace_back("WITH_TRIANGLES", "");
