@@ -136,7 +136,7 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
     if (keyword == "v") {
         numbers(n, 3, 0);
         chunk.positions.emplace_back(n[0], n[1], n[2]);
-        if (!cursor.atEnd()) readColor(cursor, chunk, line);
+        if (std::isfinite(n[0] + n[1] + n[2]) && !cursor.atEnd()) readColor(cursor, chunk, line);
     } else if (keyword == "vn") {
         numbers(n, 3, 0);
         chunk.normals.emplace_back(n[0], n[1], n[2]);
