@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of OBJ, MTL and scene files.
 #
-#   tests/fuzz/run.sh SECONDS [obj|mtl|config]...
+#   tests/fuzz/run.sh [SECONDS [obj|mtl|config]...]
 #
-# Needs clang. Begins with the files of LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
+# Without SECONDS, as a test: for LIMN_FUZZ_SECONDS each, or not at all (77) where that is not set or clang is missing. Begins with the files of
+# LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-seconds=$1
-shift
+seconds=${1:-${LIMN_FUZZ_SECONDS:-}}
+[ $# = 0 ] || shift
+if ! command -v clang++ >/dev/null || [ -z "$seconds" ]; then
+    echo "not fuzzed: say for how many seconds, and have clang installed"
+    exit 77
+fi
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(obj mtl config)
 cmake --preset fuzz >/dev/null

@@ -121,6 +121,45 @@ TEST(Occlusion, pointsHideTheirShare) {
     EXPECT_NEAR(1 - openness("technique = 'toon_ssao'\npoints = 64\nrange_check = false", 45, 0.15, 0.25, camera), ball, 0.02);
 }
 
+/// What the occlusion function f(Δ) = Δ, with Δ in radii of 2, hides of flat ground: the mean height of neighbours at even angles and distances.
+double meanHeight(const std::function<double(double, double)>& height, double x, double z) {
+    constexpr int n = 1000;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double angle = 2 * 3.14159265358979 * (i + 0.5) / n, reach = 2 * (j + 0.5) / n;
+            sum += std::max(0.0, height(x + reach * std::cos(angle), z + reach * std::sin(angle))) / 2;
+        }
+    return sum / n / n;
+}
+
+// A slope of 45 degrees beside flat ground, seen from above: differences of depth are heights. At the very foot the mean is 1/(2π). All neighbours must be
+// in the picture. They fall on whole pixels (1/14 of a unit), and those below a hundredth of the radius count as the ground's own.
+TEST(Occlusion, depthDifferencesGoThroughTheFunction) {
+    EXPECT_NEAR(meanHeight([](double x, double) { return -x; }, 0, 0), 1 / (2 * 3.14159265358979), 1e-4) << "the oracle against the formula";
+    const char* camera = "position = [0.4, 30, 0]\nlook_at = [0.4, 0, 0]\nup = [0, 0, -1]\northographic_height = 9\n";
+    const std::string linear = "technique = 'occlusion_function'\nsamples = 128\nfunction = [[0, 0], [1, 1]]";
+    const auto drawn = [&](const std::string& obj, int samples) {
+        const LoadedScene scene = makeScene(std::string("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\n") + camera, {{"p.obj", obj}});
+        return draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [192, 128]\nsamples = {}\n[ao]\n{}\nradius = 2\n[output]\naovs = ['ambient_occlusion', 'position']\n", samples, linear)), scene);
+    };
+    const Picture slope = drawn(quadObj({0, 0, 100}, {100, 0, 100}, {100, 0, -100}, {0, 0, -100}) + quadObj({-100, 100, 100}, {0, 0, 100}, {0, 0, -100}, {-100, 100, -100}), 1);
+    for (const int column : {92, 98, 105}) {
+        double hidden = 0;
+        for (int y = 32; y < 96; ++y) hidden += (1 - static_cast<double>(*slope.aov("ambient_occlusion").at(column, y))) / 64;
+        const double x = static_cast<double>(slope.aov("position").at(column, 64)[0]);
+        EXPECT_NEAR(hidden, meanHeight([](double px, double) { return -px; }, x, 0), 0.003) << x;
+    }
+    // A corner of two such slopes: the higher one is seen.
+    const std::string obj = quadObj({0, 0, 100}, {100, 0, 100}, {100, 0, 0}, {0, 0, 0}) + "v 0 0 0\nv 0 0 100\nv -100 100 100\nv -100 100 -100\nv 0 0 0\nv -100 100 -100\nv 100 100 -100\nv 100 0 0\nf -8 -7 -6 -5\nf -4 -3 -2 -1\n";
+    const Picture p = drawn(obj, 16);
+    for (const auto& [x, y] : {std::pair(93, 67), {100, 80}, {110, 72}}) {
+        const float* at = p.aov("position").at(x, y);
+        const double expected = meanHeight([](double px, double pz) { return std::max(-px, -pz); }, static_cast<double>(at[0]), static_cast<double>(at[2]));
+        EXPECT_NEAR(1 - static_cast<double>(*p.aov("ambient_occlusion").at(x, y)), expected, 0.01) << at[0] << ' ' << at[2] << ": one pixel, of 2048 neighbours";
+    }
+}
+
 // The paper's settings: 0.852 on flat ground; the reach of neighbours that bend towards the viewer darkens, away from him lightens.
 TEST(Occlusion, depthTangentsTellConcaveFromConvex) {
     const auto at = [](double y, const char* preset) {
