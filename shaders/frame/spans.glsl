@@ -67,12 +67,16 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
     Instance instance = instanceAt(seen.x - 1u);
     Material look = materialAt(triangleMaterial(instance, seen.y));
     EdgeFunctions edges = edgesOf(seen, pixel, way);
-    vec3 here = edges.at, there = edges.at + edges.slope;
-    here /= here.x + here.y + here.z, there /= there.x + there.y + there.z;
+    vec3 here = edges.at, there = edges.at + edges.slope, beside = edges.at + edgesOf(seen, pixel, way.yx).slope;
+    vec3 sums = vec3(here.x + here.y + here.z, there.x + there.y + there.z, beside.x + beside.y + beside.z);
+    // Where the triangle's plane is seen edge-on, or passes the eye, there is no place on it.
+    if (sums.x * sums.y <= 0.0 || sums.x * sums.z <= 0.0) return 2.0;
+    here /= sums.x, there /= sums.y, beside /= sums.z;
     bool staysOn = min(there.x, min(there.y, there.z)) > -0.01;
     ivec3 corners = uvCorners(instance, seen.y);
-    vec2 from = uvAt(corners, here.yz), to = uvAt(corners, there.yz), change = (to - from) / float(view.raster);
-    float alphaHere = sampleTexture(look, from, change, change).a, alphaThere = sampleTexture(look, to, change, change).a;
+    vec2 from = uvAt(corners, here.yz), to = uvAt(corners, there.yz), aside = uvAt(corners, beside.yz);
+    vec2 uvX = (to - from) / float(view.raster), uvY = (aside - from) / float(view.raster);
+    float alphaHere = sampleTexture(look, from, uvX, uvY).a, alphaThere = sampleTexture(look, to, uvX, uvY).a;
     // Alpha is bilinear between texels: as good as straight over less than one of them.
     if (!look.hasHoles || !staysOn || alphaThere >= 0.5) return 2.0;
     return clamp((alphaHere - 0.5) / max(alphaHere - alphaThere, 1e-6), 0.0, 1.0);

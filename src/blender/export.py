@@ -167,9 +167,9 @@ def encoded(linear):
     return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
 
 
-def vertex_colors(mesh):
-    """One linear colour per vertex, and whether the corners of a vertex differed and were averaged; None without colours."""
-    layer = mesh.color_attributes.active_color
+def vertex_colors(mesh, name):
+    """One linear colour per vertex, and whether the corners of a vertex differed and were averaged; None without colours of that name."""
+    layer = mesh.color_attributes.get(name) if name else mesh.color_attributes.active_color
     if layer is None or len(layer.data) == 0:
         return None, False
     if layer.domain == "POINT":
@@ -262,11 +262,13 @@ def linked(socket):
     return socket.links[0].from_node if socket is not None and socket.is_linked else None
 
 
-def takes_vertex_colors(material):
-    """Does its colour come from the mesh's colour attribute?"""
+def color_attribute(material):
+    """The name of the mesh's colour attribute that its colour comes from, "" for the active one, or None."""
     node = principled(material)
     source = linked(node.inputs["Base Color"]) if node else None
-    return source is not None and source.type in {"VERTEX_COLOR", "ATTRIBUTE"}
+    if source is None or source.type not in {"VERTEX_COLOR", "ATTRIBUTE"}:
+        return None
+    return source.layer_name if source.type == "VERTEX_COLOR" else source.attribute_name
 
 
 def cutout_image(material, left_out):
@@ -275,7 +277,8 @@ def cutout_image(material, left_out):
     if node is None:
         return None
     source = linked(node.inputs["Alpha"])
-    if source is not None and source.type == "TEX_IMAGE" and source.image and material.blend_method != "OPAQUE":
+    from_alpha = source is not None and node.inputs["Alpha"].links[0].from_socket.name == "Alpha"
+    if from_alpha and source.type == "TEX_IMAGE" and source.image and material.blend_method != "OPAQUE":
         if material.blend_method == "BLEND":
             left_out.add("soft transparency (cut out where alpha is below one half)", material.name)
         return source.image
@@ -286,7 +289,7 @@ def cutout_image(material, left_out):
 
 def base_color(material, left_out):
     """Linear colour and texture file of a material."""
-    if takes_vertex_colors(material):
+    if color_attribute(material) is not None:
         return (1.0, 1.0, 1.0), None
     if material.use_nodes and material.node_tree:
         for node in material.node_tree.nodes:
@@ -315,6 +318,9 @@ def texture_path(image, folder, taken, left_out):
         if image.packed_file:
             with open(target, "wb") as file:
                 file.write(image.packed_file.data)
+        elif image.source != "GENERATED" and not image.has_data and not os.path.isfile(source):
+            left_out.add("image that cannot be read", image.name)
+            return None
         elif image.source == "GENERATED" or not os.path.isfile(source):
             name = os.path.splitext(name)[0] + ".png"
             target = os.path.join(folder, "textures", name)
@@ -323,8 +329,10 @@ def texture_path(image, folder, taken, left_out):
             copy.colorspace_settings.name = image.colorspace_settings.name
             copy.pixels = image.pixels[:]
             copy.filepath_raw, copy.file_format = target, "PNG"
-            copy.save()
-            bpy.data.images.remove(copy)
+            try:
+                copy.save()
+            finally:
+                bpy.data.images.remove(copy)
         else:
             with open(source, "rb") as file, open(target, "wb") as out:
                 out.write(file.read())
@@ -480,7 +488,12 @@ class Exporter:
                     self.left_out.add("mesh without faces", original.name)
                 return None
             slots = [self.material(slot.material) for slot in original.material_slots]
-            colors, differ = vertex_colors(mesh) if any(takes_vertex_colors(slot.material) for slot in original.material_slots) else (None, False)
+            wanted = {color_attribute(slot.material) for slot in original.material_slots} - {None}
+            colors, differ = vertex_colors(mesh, sorted(wanted)[0]) if wanted else (None, False)
+            if wanted and colors is None:
+                self.left_out.add("colour attribute that is not there or holds no colours (drawn white)", "%s (%s)" % (original.name, sorted(wanted)[0]))
+            if len(wanted) > 1:
+                self.left_out.add("more than one colour attribute on a mesh", "%s (%s)" % (original.name, ", ".join(sorted(wanted)[1:])))
             self.colored = self.colored or colors is not None
             if differ:
                 self.left_out.add("colours that differ between the faces at a vertex (averaged)", original.name)
@@ -541,7 +554,7 @@ class Exporter:
             if tuple(material.line_color) != (0.0, 0.0, 0.0, 0.0):
                 lines.append("line_color = " + vector([max(0.0, c) for c in tuple(material.line_color)[:3]]))
             self.materials[material.name] = lines
-            if not takes_vertex_colors(material):
+            if color_attribute(material) is None:
                 self.plain.add(material.name)
         return material.name
 

@@ -46,7 +46,11 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
     for (const auto& path : configs) {
         try {
             const RenderConfig config = readRenderConfig(path, overrides);
-            const LoadedScene loaded = loadScene(config);
+            LoadedScene loaded = loadScene(config);
+            const auto& meshes = loaded.scene.meshes;
+            if (std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.perFrame; }))
+                for (std::int64_t frame = loaded.scene.firstFrame(); loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame) goToFrame(loaded, static_cast<int>(frame));
+            goToFrame(loaded, loaded.scene.firstFrame());
             static_cast<void>(planConfig(config, loaded, loaded.scene.firstFrame()));
             log::info("{}: fine", path);
         } catch (const Error& error) {

@@ -226,6 +226,10 @@ ExitCode run(const Options& options) {
                 ++done;
             } catch (const Error& error) {
                 failFrame(error);
+            } catch (const Errors& several) {
+                if (!options.keepGoing) throw;
+                for (const auto& error : several.list) log::error("{}", error.message);
+                if (failed++ == 0) firstFailure = several.list.front().code;
             }
         }
     }

@@ -201,6 +201,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3, static_cast<std::int32_t>(place.firstVertex), number});
         numbers.push_back(number);
     }
+    if (words.size() > most) throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene's triangles have more materials, parts and vertex colours than this GL device takes ({} numbers)", most), "use coarser meshes or another device");
     positions_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
     indices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
     words_ = gl::Buffer(bytesOf(words), "words");

@@ -89,9 +89,9 @@ struct RayScene::Trees {
     std::map<std::string, Image> masks;               ///< by their files
     std::vector<std::unique_ptr<Holes>> holes;
 
-    /// The holes of a mesh as an instance shows it, or null.
-    Holes* holesOf(const DrawScene& scene, const DrawInstance& instance, const TriMesh& mesh) {
-        std::vector<const Image*> maskOf;
+    /// For each of the mesh's materials, as an instance shows it, the image that cuts holes; empty where none does.
+    std::vector<const Image*> masksOf(const DrawScene& scene, const DrawInstance& instance) {
+        std::vector<const Image*> list;
         for (const auto number : instance.materials) {
             const Material& material = scene.materials[number];
             const Image* mask = nullptr;
@@ -100,10 +100,17 @@ struct RayScene::Trees {
                 if (isNew) it->second = readTexture("", material.cutout);
                 mask = &it->second;
             }
-            maskOf.push_back(mask);
+            list.push_back(mask);
         }
-        if (std::all_of(maskOf.begin(), maskOf.end(), [](const Image* mask) { return !mask; })) return nullptr;
+        if (std::all_of(list.begin(), list.end(), [](const Image* mask) { return !mask; })) list.clear();
+        return list;
+    }
+
+    Holes* holesOf(const TriMesh& mesh, const std::vector<const Image*>& maskOf) {
+        if (maskOf.empty()) return nullptr;
         auto& made = *holes.emplace_back(std::make_unique<Holes>());
+        made.mask.reserve(mesh.triangleCount());
+        made.uvs.reserve(3 * mesh.triangleCount());
         for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
             made.mask.push_back(maskOf[mesh.triangleMaterial.empty() ? 0 : mesh.triangleMaterial[t]]);
             for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) made.uvs.push_back(mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]]);
@@ -118,9 +125,12 @@ RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
     if (!trees_->device) check(nullptr);
     RTCDevice device = trees_->device.get();
     trees_->top = makeScene(device);
-    std::vector<int> uses(meshes.size(), 0);
-    for (const int mesh : meshOf) ++uses[static_cast<std::size_t>(mesh)];
-    std::vector<RTCScene> shared(meshes.size(), nullptr);
+    // Instances share a tree where they share a mesh and the holes in it.
+    using Look = std::pair<int, std::vector<const Image*>>;
+    std::vector<Look> looks;
+    std::map<Look, int> uses;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) ++uses[looks.emplace_back(meshOf[i], trees_->masksOf(scene, scene.instances[i]))];
+    std::map<Look, RTCScene> shared;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto number = static_cast<std::size_t>(meshOf[i]);
         const TriMesh& mesh = meshes[number];
@@ -128,21 +138,21 @@ RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         const glm::dmat4& world = scene.instances[i].worldFromMesh;
         const glm::dmat3 linear = glm::dmat3(world) * unit_;
         const glm::dvec3 offset = (glm::dvec3(world * glm::dvec4(mesh.pivot, 1)) - origin_) * unit_;
-        // Instances may show different materials on one mesh: with holes each has triangles of its own.
-        Holes* holes = trees_->holesOf(scene, scene.instances[i], mesh);
-        if (uses[number] == 1 || holes) {
-            addTriangles(device, trees_->top.get(), mesh, linear, offset, holes);
+        const Look& look = looks[i];
+        if (uses[look] == 1) {
+            addTriangles(device, trees_->top.get(), mesh, linear, offset, trees_->holesOf(mesh, look.second));
             continue;
         }
-        if (!shared[number]) {
+        RTCScene& tree = shared[look];
+        if (!tree) {
             trees_->shared.push_back(makeScene(device));
-            shared[number] = trees_->shared.back().get();
-            addTriangles(device, shared[number], mesh, glm::dmat3(1), glm::dvec3(0));
-            rtcCommitScene(shared[number]);
+            tree = trees_->shared.back().get();
+            addTriangles(device, tree, mesh, glm::dmat3(1), glm::dvec3(0), trees_->holesOf(mesh, look.second));
+            rtcCommitScene(tree);
             check(device);
         }
         RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, shared[number]);
+        rtcSetGeometryInstancedScene(instance, tree);
         float columns[12];
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 3; ++row) columns[3 * column + row] = static_cast<float>(column < 3 ? linear[column][row] : offset[row]);

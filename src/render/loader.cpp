@@ -67,7 +67,7 @@ private:
 
 /// Reads one mesh and what belongs to it; returns the hash of it all.
 std::uint64_t readMesh(LoadedMesh& mesh, const MeshSource& source, int frame) {
-    const std::filesystem::path path = framePath(source.file, frame);
+    const std::filesystem::path path = source.at(frame);
     const MappedFile file(path);
     auto obj = parseObj(file.text(), path.string());
     mesh = {std::move(obj.mesh), {}, std::move(obj.warnings)};
@@ -109,7 +109,7 @@ void readMeshes(LoadedScene& loaded, const std::vector<std::size_t>& wanted) {
     errors.throwIfAny();
     for (const std::size_t i : wanted)
         for (const auto& warning : loaded.meshes[i].warnings)
-            log::warning("{}{}: {}{}", framePath(sources[i].file, loaded.frame).string(), warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
+            log::warning("{}{}: {}{}", sources[i].at(loaded.frame).string(), warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind, warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
 }
 
 void combineHashes(LoadedScene& loaded) {
@@ -159,10 +159,21 @@ void goToFrame(LoadedScene& loaded, int frame) {
     if (frame == loaded.frame) return;
     std::vector<std::size_t> wanted;
     for (std::size_t i = 0; i < loaded.meshes.size(); ++i)
-        if (hasFrameNumber(loaded.scene.meshes[i].file) && loaded.meshes[i].poly.faceCount() > 0) wanted.push_back(i);
+        if (loaded.scene.meshes[i].perFrame && loaded.meshes[i].poly.faceCount() > 0) wanted.push_back(i);
+    // Should a file be bad, the scene stays where it was.
+    std::vector<LoadedMesh> before;
+    const auto hashes = loaded.meshHashes;
+    const int frameBefore = loaded.frame;
+    for (const auto i : wanted) before.push_back(std::move(loaded.meshes[i]));
     loaded.frame = frame;
+    try {
+        readMeshes(loaded, wanted);
+    } catch (...) {
+        for (std::size_t w = 0; w < wanted.size(); ++w) loaded.meshes[wanted[w]] = std::move(before[w]);
+        loaded.meshHashes = hashes, loaded.frame = frameBefore;
+        throw;
+    }
     if (wanted.empty()) return;
-    readMeshes(loaded, wanted);
     combineHashes(loaded);
     loaded.number = nextSceneNumber();
 }

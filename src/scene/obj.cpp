@@ -260,12 +260,13 @@ private:
     void finishColors(WarningList& warnings) {
         if (mesh_.colors.empty()) return;
         mesh_.colors.resize(mesh_.positions.size(), kNoColor);
-        const bool bytes = std::any_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return std::max({c.r, c.g, c.b}) > 1; });
-        if (bytes) warnings.add("vertex colours go above 1; read as 0 to 255", 0);
+        const bool above = std::any_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return std::max({c.r, c.g, c.b}) > 1; });
+        const bool bytes = above && std::all_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return c == glm::round(c); });
+        if (above) warnings.add(bytes ? "vertex colours are whole numbers above 1; read as 0 to 255" : "vertex colours go above 1; clamped", 0);
         tbb::parallel_for(std::size_t{0}, mesh_.colors.size(), [&](std::size_t i) {
             glm::vec3& color = mesh_.colors[i];
             if (color == kNoColor) color = glm::vec3(1);
-            else for (int k = 0; k < 3; ++k) color[k] = srgbToLinear(bytes ? color[k] / 255 : color[k]);
+            else for (int k = 0; k < 3; ++k) color[k] = srgbToLinear(bytes ? color[k] / 255 : std::min(color[k], 1.0f));
         });
     }
 

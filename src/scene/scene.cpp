@@ -177,11 +177,12 @@ private:
     /// A file per frame: all that the scene declares must be there.
     std::string resolveFrames(const Node& node) {
         const auto path = pathIn(node);
+        const MeshSource source{.file = path.string(), .perFrame = true};
         const FrameRange frames = scene_.frames.value_or(FrameRange{});
         std::string first;
         int missing = 0;
-        for (int frame = frames.first; frame <= frames.last; ++frame)
-            if (const auto file = framePath(path, frame); !fileExists(file) && missing++ == 0) first = file.string();
+        for (std::int64_t frame = frames.first; frame <= frames.last; ++frame)
+            if (const auto file = source.at(static_cast<int>(frame)); !fileExists(file) && missing++ == 0) first = file.string();
         if (missing > 0) fail(node, fmt::format("'{}' does not exist{}", first, missing > 1 ? fmt::format(", nor do {} more of its frames", missing - 1) : ""), "#### stands for the number of each frame that the scene declares; paths are relative to the file that names them", ExitCode::missingInput);
         return path.string();
     }
@@ -202,7 +203,9 @@ private:
         if (const Node* settings = node.find("subdivision")) readSubdivision(*settings, mesh.subdivision);
         mesh.creases = resolveFile(node, "creases", mesh.creases);
         mesh.where = node.where;
-        mesh.file = hasFrameNumber(mesh.file) ? resolveFrames(*node.find("file")) : resolveFile(node, "file", mesh.file);
+        // A file may simply have such a name.
+        mesh.perFrame = hasFrameNumber(std::filesystem::path(mesh.file).filename()) && !fileExists(pathIn(*node.find("file")));
+        mesh.file = mesh.perFrame ? resolveFrames(*node.find("file")) : resolveFile(node, "file", mesh.file);
         if (!meshNames_.insert(mesh.name).second) fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
         scene_.meshes.push_back(std::move(mesh));
     }
@@ -290,6 +293,11 @@ std::optional<SubdivisionSettings::EdgeLength> SubdivisionSettings::wantedEdge()
     const auto amount = parseNumber(text);
     if (!amount || !(*amount > 0) || !std::isfinite(*amount)) return std::nullopt;
     return EdgeLength{*amount, isPixels};
+}
+
+std::filesystem::path MeshSource::at(int frame) const {
+    const std::filesystem::path path(file);
+    return perFrame ? path.parent_path() / framePath(path.filename(), frame) : path;
 }
 
 glm::dmat4 Instance::transform() const {

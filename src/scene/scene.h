@@ -98,10 +98,14 @@ struct SubdivisionSettings {
 
 struct MeshSource {
     std::string name;
-    std::string file;           ///< absolute, or relative to the working directory; #### is the frame number, where each frame has a file
+    std::string file;           ///< absolute, or relative to the working directory
+    bool perFrame = false;      ///< the file's name is a pattern: #### stands for the number of the frame
     std::string creases;        ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;
+
+    /// The file to read at a frame.
+    std::filesystem::path at(int frame) const;
 };
 
 struct Instance {

@@ -10,12 +10,14 @@ namespace limn::test {
 namespace {
 
 TEST(Sequence, drawsTheFileOfEachFrame) {
-    const TemporaryFolder folder;
-    for (const int frame : {2, 3, 4}) replaceFile(folder.path() / fmt::format("wall_{:03}.obj", frame), quadObj({-9, -9, -frame}, {9, -9, -frame}, {9, 9, -frame}, {-9, 9, -frame}));
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path() / "job#3";   // a sign in a folder's name means nothing
+    std::filesystem::create_directory(folder);
+    for (const int frame : {2, 3, 4}) replaceFile(folder / fmt::format("wall_{:03}.obj", frame), quadObj({-9, -9, -frame}, {9, -9, -frame}, {9, 9, -frame}, {-9, 9, -frame}));
     const std::string scene = "[animation]\nframes = \"{}\"\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 4\n[[mesh]]\nname = 'wall'\nfile = 'wall_###.obj'\n";
-    replaceFile(folder.path() / "scene.toml", fmt::format(fmt::runtime(scene), "2-4"));
+    replaceFile(folder / "scene.toml", fmt::format(fmt::runtime(scene), "2-4"));
     const RenderConfig config = makeConfig("[image]\nsize = [16, 16]\nsamples = 1\n[output]\naovs = ['depth']\n");
-    LoadedScene loaded = loadScene(folder.path() / "scene.toml");
+    LoadedScene loaded = loadScene(folder / "scene.toml");
     EXPECT_EQ(loaded.frame, 2) << "the first that is declared";
     const Bounds first = loaded.bounds;
     std::string hash;
@@ -27,9 +29,15 @@ TEST(Sequence, drawsTheFileOfEachFrame) {
         hash = loaded.hash;
     }
 
-    replaceFile(folder.path() / "scene.toml", fmt::format(fmt::runtime(scene), "1-6"));
+    // A bad file leaves the scene where it was.
+    replaceFile(folder / "wall_004.obj", "v 0 0 0\n");
+    EXPECT_THROW(goToFrame(loaded, 4), Errors);
+    EXPECT_EQ(loaded.frame, 3);
+    EXPECT_EQ(*draw(config, loaded, {}, 3).aov("depth").at(8, 8), 8);
+
+    replaceFile(folder / "scene.toml", fmt::format(fmt::runtime(scene), "1-6"));
     try {
-        loadScene(folder.path() / "scene.toml");
+        loadScene(folder / "scene.toml");
         FAIL() << "frames 1, 5 and 6 have no file";
     } catch (const Errors& errors) {
         ASSERT_EQ(errors.list.size(), 1u);

@@ -66,6 +66,11 @@ TEST(Obj, readsColoursOfVertices) {
     EXPECT_EQ(bytes.mesh.colors[0].r, 1);
     EXPECT_NEAR(bytes.mesh.colors[0].b, 0.0331048, 1e-6);
 
+    const auto bright = parse("v 0 0 0 1.25 0.5 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0 0 0 0\nf 1 2 3\n");
+    EXPECT_TRUE(warned(bright, "above 1; clamped"));
+    EXPECT_EQ(bright.mesh.colors[0].r, 1);
+    EXPECT_NEAR(bright.mesh.colors[1].r, 0.2140411, 1e-6) << "one bright colour does not darken the others";
+
     const auto odd = parse("v 0 0 0 nan 0.5 -1\nv 1 0 0 0.5 0.5\nv 1 1 0 blue\nf 1 2 3\n");
     EXPECT_TRUE(warned(odd, "clamped"));
     EXPECT_TRUE(warned(odd, "neither weight nor colour"));

@@ -19,13 +19,16 @@ flat in uint instanceNumber;
 
 void main() {
     uint triangle = uint(gl_PrimitiveID);
+#if (defined(WRITES_albedo) && defined(TEXTURED)) || defined(CUTOUTS)
+    vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);   // before any fragment is discarded
+#endif
     Instance instance = instanceAt(instanceNumber);
 #if defined(WRITES_material_id) || defined(WRITES_albedo) || defined(CUTOUTS)
     uint material = triangleMaterial(instance, triangle);
 #endif
 #ifdef CUTOUTS
     Material cut = materialAt(material);
-    if (sampleTexture(cut, uvBetween, dFdx(uvBetween), dFdy(uvBetween)).a < 0.5 && cut.hasHoles) discard;
+    if (sampleTexture(cut, uvBetween, uvX, uvY).a < 0.5 && cut.hasHoles) discard;
 #endif
 #ifdef WRITES_depth
     // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
@@ -62,7 +65,6 @@ void main() {
 #ifdef WRITES_albedo
     Material look = materialAt(material);
 #ifdef TEXTURED
-    vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);
     if (look.levels > 0) look.color *= sampleTexture(look, uvBetween, uvX, uvY).rgb;
 #endif
 #ifdef VERTEX_COLORS

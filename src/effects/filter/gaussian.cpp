@@ -36,7 +36,8 @@ void build(EffectBuilder& graph, const Params& params) {
         Pass pass;
         pass.name = isLast ? "gaussian_columns" : "gaussian_rows";
         pass.defines = {{"TAPS_BESIDE", std::to_string(n)}};
-        pass.reads = {{"source", graph.read(aov::ambientOcclusion), n}};
+        // Columns need rows n pixels above and below the picture; of these only those columns that lie in it, whose taps end where these rows' columns do.
+        pass.reads = {{"source", graph.read(aov::ambientOcclusion), isLast ? n : 0}};
         pass.writes = {{"result", result}};
         pass.params = paramsBlock(kConstants, Constants{isLast ? glm::ivec2(0, 1) : glm::ivec2(1, 0), static_cast<float>(middle)});
         pass.note = fmt::format("{} taps per pixel", 2 * n + 1);
