@@ -56,8 +56,10 @@ for ((i = 0; i < rounds; ++i)); do
 done
 l1=$(median <"$work/limn1") f=$(median <"$work/f3d") l8=$(median <"$work/limn8") w=$(median <"$work/workbench")
 printf '%-44s %6s s\n' 'limn, 1 sample, whole process' "$l1" 'F3D --ssao, whole process' "$f" 'limn, 8 samples, whole process' "$l8" 'Workbench, cavity and outline, render alone' "$w"
-echo "limn / F3D at 1 sample:        $(echo "scale=2; $l1 / $f" | bc)"
-echo "limn / Workbench at 8 samples: $(echo "scale=2; $l8 / $w" | bc)"
+# Of each round, whose programs run one after the other: a machine that slows down between rounds does not tilt them.
+ratio() { paste "$work/$1" "$work/$2" | awk '{ printf "%.3f\n", $1 / $2 }' | median; }
+echo "limn / F3D at 1 sample, median of the rounds:        $(ratio limn1 f3d)"
+echo "limn / Workbench at 8 samples, median of the rounds: $(ratio limn8 workbench)   ($(paste -sd' ' <(paste "$work/limn8" "$work/workbench" | awk '{ printf "%.2f\n", $1 / $2 }')))"
 echo 'parts of the last runs, milliseconds:'
 cat "$work/stats1.json" "$work/stats8.json"
 [ -z "${KEEP:-}" ] || cp "$work"/*.png "$KEEP/"
