@@ -228,8 +228,7 @@ ExitCode run(const Options& options) {
                 failFrame(error);
             } catch (const Errors& several) {
                 if (!options.keepGoing) throw;
-                for (const auto& error : several.list) log::error("{}", error.message);
-                if (failed++ == 0) firstFailure = several.list.front().code;
+                for (const auto& error : several.list) failFrame(error);
             }
         }
     }

@@ -76,6 +76,12 @@ void EffectBuilder::add(Pass pass) {
     graph_.passes.push_back(std::move(pass));
 }
 
+void EffectBuilder::cutHoles(Pass& pass) const {
+    if (!scene_.cutouts) return;
+    pass.defines.emplace_back("CUTOUTS", "");
+    pass.needs = pass.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
+}
+
 std::optional<ResourceId> EffectBuilder::shadowMaps() {
     if (shadowMaps_) return shadowMaps_;
     const ShadowLayout layout = shadowLayout(scene_.lights);
@@ -89,11 +95,8 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.shader = "frame/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;
-    if (scene_.cutouts) {
-        pass.defines.emplace_back("CUTOUTS", "");
-        pass.needs = pass.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
-        if (chosen("geometry", "fast")) pass.defines.emplace_back("UNIFIED", "");
-    }
+    cutHoles(pass);
+    if (scene_.cutouts && chosen("geometry", "fast")) pass.defines.emplace_back("UNIFIED", "");
     pass.drawings = layout.drawings;
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
     pass.note = fmt::format("{} map{}", layout.drawings.size(), layout.drawings.size() == 1 ? "" : "s");

@@ -70,6 +70,9 @@ public:
     /// The shadow maps of all lights that cast one, as one image; nullopt when none does.
     std::optional<ResourceId> shadowMaps();
 
+    /// Lets the pass's shaders see the holes that materials cut (CUTOUTS), where there are any.
+    void cutHoles(Pass& pass) const;
+
     void beginTechnique(std::string slot, std::string technique) { slot_ = std::move(slot), technique_ = std::move(technique); }
     /// A unique suffix for layered slots ("edges" twice), or "".
     void setLayer(int layer) { layer_ = layer; }

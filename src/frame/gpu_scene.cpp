@@ -286,10 +286,10 @@ void GpuScene::loadTextures(const DrawScene& scene, int maxTextureSize) {
     }
     atlas_ = gl::Texture::pictureArray(side, pen.z + 1, "texture atlas");
     for (const auto& [files, chain] : chains)
-        for (int l = 0; l < chain.levels; ++l) atlas_.writeLayer(places[files].z, glm::ivec2(places[files]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
+        for (int l = 0; l < chain.levels(); ++l) atlas_.writeLayer(places[files].z, glm::ivec2(places[files]) + chain.levelOrigin(l), chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const auto known = chains.find(filesOf(scene.materials[i]));
-        if (known != chains.end()) atlasEntries_[i] = {places[known->first], known->second.levels, known->second.size};
+        if (known != chains.end()) atlasEntries_[i] = {places[known->first], known->second.levels(), known->second.size};
     }
 }
 

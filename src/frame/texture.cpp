@@ -13,7 +13,7 @@ namespace {
 
 /// Resizes by averaging the area that each new texel covers, so that any size works. Colours count by their alpha: what lies in a hole has none.
 Image resize(const Image& image, glm::ivec2 size) {
-    Image half{size.x, size.y, 4, std::vector<float>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4)};
+    Image resized{size.x, size.y, 4, std::vector<float>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4)};
     tbb::parallel_for(0, size.y, [&](int y) {
         for (int x = 0; x < size.x; ++x) {
             const double x0 = double(x) * image.width / size.x, x1 = double(x + 1) * image.width / size.x;
@@ -28,11 +28,11 @@ Image resize(const Image& image, glm::ivec2 size) {
                     sum[3] += weight * alpha, total += weight;
                 }
             }
-            for (int c = 0; c < 3; ++c) half.at(x, y)[c] = static_cast<float>(sum[3] > 0 ? sum[c] / sum[3] : bare[c] / total);
-            half.at(x, y)[3] = static_cast<float>(sum[3] / total);
+            for (int c = 0; c < 3; ++c) resized.at(x, y)[c] = static_cast<float>(sum[3] > 0 ? sum[c] / sum[3] : bare[c] / total);
+            resized.at(x, y)[3] = static_cast<float>(sum[3] / total);
         }
     });
-    return half;
+    return resized;
 }
 
 /// RGBA, rows from the bottom as v counts.
@@ -55,17 +55,14 @@ Image asTexture(const Image& picture) {
 Image readTexture(const std::string& colors, const std::string& holes) {
     Image texture{1, 1, 4, {1, 1, 1, 1}};
     if (!colors.empty()) texture = asTexture(readImage(colors));
-    if (holes.empty()) {
-        for (std::size_t i = 3; i < texture.pixels.size(); i += 4) texture.pixels[i] = 1;   // alpha means something only where holes are asked for
-        return texture;
-    }
+    for (std::size_t i = 3; i < texture.pixels.size(); i += 4) texture.pixels[i] = 1;   // its own alpha says nothing: only where holes are asked for are there any
+    if (holes.empty()) return texture;
     const Image picture = readImage(holes);
     Image mask = asTexture(picture);
     const bool hasAlpha = picture.channels % 2 == 0;
     const glm::ivec2 size = glm::max(glm::ivec2(texture.width, texture.height), glm::ivec2(mask.width, mask.height));
     for (std::size_t i = 0; i < mask.pixels.size(); i += 4)
         if (!hasAlpha) mask.pixels[i + 3] = linearToSrgb((mask.pixels[i] + mask.pixels[i + 1] + mask.pixels[i + 2]) / 3);   // half is what looks half
-    for (std::size_t i = 3; i < texture.pixels.size(); i += 4) texture.pixels[i] = 1;
     if (size != glm::ivec2(mask.width, mask.height)) mask = resize(mask, size);
     if (size != glm::ivec2(texture.width, texture.height)) texture = resize(texture, size);
     for (std::size_t i = 3; i < texture.pixels.size(); i += 4) texture.pixels[i] = mask.pixels[i];
@@ -101,18 +98,15 @@ constexpr double kWrongShare = 0.25;
 MipChain makeMipChain(Image level, bool hasHoles) {
     MipChain chain;
     chain.size = {level.width, level.height};
-    chain.levels = 1 + static_cast<int>(std::log2(std::max(level.width, level.height)));
+    const int levels = 1 + static_cast<int>(std::log2(std::max(level.width, level.height)));
     const double share = hasHoles ? solidShare(level) : 1;
-    for (int l = 0; l < chain.levels; ++l) {
+    for (int l = 0; l < levels; ++l) {
         if (l > 0) level = resize(level, chain.levelSize(l));
         Image encoded = level;
         if (hasHoles && l > 0) {
             keepShare(encoded, share);
             // Where all texels have become alike they are all solid or all holes: better that samples meet the finer level at random.
-            if (std::abs(solidShare(encoded) - share) > kWrongShare * share) {
-                chain.levels = l;
-                break;
-            }
+            if (std::abs(solidShare(encoded) - share) > kWrongShare * share) break;
         }
         for (std::size_t i = 0; i < encoded.pixels.size(); ++i)
             if (i % 4 != 3) encoded.pixels[i] = linearToSrgb(encoded.pixels[i]);

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,9 +19,9 @@ Image readTexture(const std::string& colors, const std::string& holes);
 /// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a column to its right.
 struct MipChain {
     glm::ivec2 size{0};
-    int levels = 1;
     std::vector<std::vector<std::uint8_t>> pixels;   ///< RGBA per level
 
+    int levels() const { return static_cast<int>(pixels.size()); }
     glm::ivec2 levelSize(int level) const { return glm::max(size >> level, glm::ivec2(1)); }
     glm::ivec2 levelOrigin(int level) const {
         glm::ivec2 origin(0);
@@ -28,8 +29,8 @@ struct MipChain {
         return origin;
     }
     glm::ivec2 footprint() const {
-        const glm::ivec2 last = levelOrigin(levels - 1) + levelSize(levels - 1);
-        return {levels > 1 ? size.x + levelSize(1).x : size.x, std::max(size.y, last.y)};
+        const glm::ivec2 last = levelOrigin(levels() - 1) + levelSize(levels() - 1);
+        return {levels() > 1 ? size.x + levelSize(1).x : size.x, std::max(size.y, last.y)};
     }
 };
 

@@ -305,7 +305,7 @@ SceneFacts sceneFacts(const DrawScene& scene) {
     for (const auto& instance : scene.instances)
         for (const auto number : instance.materials) {
             const Material& material = scene.materials[number];
-            facts.textured = facts.textured || !material.texture.empty() || !material.cutout.empty();
+            facts.textured = facts.textured || !material.texture.empty();
             facts.cutouts = facts.cutouts || !material.cutout.empty();
             facts.vertexColors = facts.vertexColors || (instance.hasColors && material.vertexColors);
         }

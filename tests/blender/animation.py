@@ -3,7 +3,6 @@
 blender -b -P animation.py -- EXPORTER OUT_DIR
 """
 
-import importlib.util
 import math
 import os
 import sys
@@ -12,13 +11,9 @@ import bpy
 import bmesh
 from mathutils import Euler, Matrix
 
-exporter_path, out = sys.argv[sys.argv.index("--") + 1:]
-spec = importlib.util.spec_from_file_location("limn_export", exporter_path)
-exporter = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(exporter)
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from common import exporter, out, scene
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-scene = bpy.context.scene
 scene.frame_start, scene.frame_end = 3, 9
 scene.render.fps, scene.render.fps_base = 24, 1.001
 

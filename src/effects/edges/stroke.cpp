@@ -69,7 +69,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
         return made;
     };
 
-    // Lines cover little of a picture: what follows runs only near them.
+    // Lines cover little of a picture: what follows runs only in the tiles that have some, or lie near those.
     const ResourceId tiles = graph.image("line_tiles" + suffix, Format::r8, kMaskTile);
     graph.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles}}, "where there are lines"));
     const NearConstants nearConstants{(window + kMaskTile - 1) / kMaskTile};
@@ -92,10 +92,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     }
     place.params = paramsBlock(kPlaceConstants, PlaceConstants{static_cast<float>(stroke.fade), static_cast<float>(stroke.taper), static_cast<float>(stroke.fadeFrom), static_cast<float>(1 / std::max(stroke.fadeTo - stroke.fadeFrom, 1e-6))});
     place.needs = SceneData::positions;
-    if (graph.scene().cutouts && graph.find(aov::visibility)) {
-        place.defines.emplace_back("CUTOUTS", "");
-        place.needs = place.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
-    }
+    if (graph.find(aov::visibility)) graph.cutHoles(place);
     graph.add(std::move(place));
 
     const ResourceId first = graph.image("line_pieces" + suffix, Format::rg32ui), second = graph.image("line_pieces_beside" + suffix, Format::rg32ui);

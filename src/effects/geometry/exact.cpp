@@ -18,7 +18,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.writes = {{"visibility", visibility}, {"zBuffer", zBuffer}};
     raster.needs = SceneData::positions;
     raster.note = "triangle ids only";
-    cutHoles(graph, raster);
+    graph.cutHoles(raster);
     graph.add(std::move(raster));
     graph.publish(aov::visibility, visibility);
 

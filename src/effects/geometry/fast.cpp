@@ -16,7 +16,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.writes.push_back({"zBuffer", graph.image("z_buffer", Format::depth32f)});
     raster.defines = surfaceDefines(graph);
     raster.needs = SceneData::positions | SceneData::unifiedVertices;
-    cutHoles(graph, raster);
+    graph.cutHoles(raster);
     raster.note = "interpolated by the hardware";
     graph.add(std::move(raster));
 }

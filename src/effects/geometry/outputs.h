@@ -25,13 +25,6 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
     return writes;
 }
 
-/// What a raster pass needs to leave holes open.
-inline void cutHoles(const EffectBuilder& graph, Pass& raster) {
-    if (!graph.scene().cutouts) return;
-    raster.defines.emplace_back("CUTOUTS", "");
-    raster.needs = raster.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
-}
-
 inline std::vector<std::pair<std::string, std::string>> surfaceDefines(const EffectBuilder& graph) {
     std::vector<std::pair<std::string, std::string>> defines;
     if (graph.scene().textured) defines.emplace_back("TEXTURED", "");
