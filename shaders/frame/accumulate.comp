@@ -3,5 +3,5 @@
 
 void main() {
     ivec2 pixel = thisPixel();
-    if (insideRegion(pixel)) write_mean(texelFetch(source, pixel, 0));
+    if (insideRegion(pixel)) write_mean(load(source, pixel));
 }

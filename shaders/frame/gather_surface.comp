@@ -4,5 +4,5 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    write_result(vec4(texelFetch(source, pixel, 0).r, texelFetch(depth, pixel, 0).r, texelFetch(normal, pixel, 0).xy));
+    write_result(vec4(load(source, pixel).r, load(depth, pixel).r, load(normal, pixel).xy));
 }

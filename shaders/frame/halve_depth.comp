@@ -4,5 +4,5 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    write_result(texelFetch(depth, pixel * COARSENESS, 0));
+    write_result(load(depth, pixel * COARSENESS));
 }

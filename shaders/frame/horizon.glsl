@@ -15,7 +15,7 @@ float openSide(Slice s, ivec2 pixel, vec3 position, float side, float leastRise,
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
         ivec2 tap = tapAt(pixel, direction, reach);
-        vec3 offset = viewPosition(tap, texelFetch(depth, tap, 0).r) - position;
+        vec3 offset = viewPosition(tap, load(depth, tap).r) - position;
         float squared = dot(offset, offset);
         vec2 at = inSlice(s, offset);
         // Without branches: what lies beyond the radius, the background as well, does not rise at all.

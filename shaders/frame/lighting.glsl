@@ -28,7 +28,7 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
         }
         float facing = dot(n, towards);
 #ifdef WITH_SHADOWS
-        if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(texelFetch(normalGeometric, pixel, 0).xy), towards);
+        if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(load(normalGeometric, pixel).xy), towards);
 #endif
         sum.diffuse += lights[i].color.rgb * (strength * max(facing, 0.0));
         if (shininess > 1.0 && facing > 0.0) {
@@ -45,7 +45,7 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
 // How open the pixel is, 1 where nothing computes it.
 float openness(ivec2 pixel, float strength) {
 #ifdef WITH_AO
-    return mix(1.0, texelFetch(ambientOcclusion, pixel, 0).r, strength);
+    return mix(1.0, load(ambientOcclusion, pixel).r, strength);
 #else
     return 1.0;
 #endif

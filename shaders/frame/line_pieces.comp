@@ -12,7 +12,7 @@ Piece join(Corner a, Corner b) {
     return Piece(a.place, b.place, a.code, along.x * off.y - along.y * off.x > 0.0);
 }
 
-uvec2 crossingsAt(ivec2 pixel) { return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size)) ? uvec2(0) : texelFetch(crossings, pixel, 0).xy; }
+uvec2 crossingsAt(ivec2 pixel) { return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size)) ? uvec2(0) : load(crossings, pixel).xy; }
 
 // A crossing that no other one continues on either side is no line but a speck.
 bool goesOn(ivec2 cell, bool viaBottom, bool viaRight, bool viaUpper) {
@@ -27,7 +27,7 @@ bool goesOn(ivec2 cell, bool viaBottom, bool viaRight, bool viaUpper) {
 void main() {
     ivec2 cell = thisPixel();
     if (!insideRegion(cell) || IS_MASKED(cell)) return;
-    uvec2 own = texelFetch(crossings, cell, 0).xy;
+    uvec2 own = load(crossings, cell).xy;
     uint bottom = own.x, left = own.y, right = crossingsAt(cell + ivec2(1, 0)).y, upper = crossingsAt(cell + ivec2(0, 1)).x;
     int count = int(bottom != 0u) + int(right != 0u) + int(upper != 0u) + int(left != 0u);
     uvec4 pieces = uvec4(0);

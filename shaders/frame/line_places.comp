@@ -17,8 +17,8 @@ struct Surface {
 };
 
 Surface surfaceAt(ivec2 pixel) {
-    float z = texelFetch(depth, pixel, 0).r;
-    return Surface(pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(texelFetch(normalGeometric, pixel, 0).xy));
+    float z = load(depth, pixel).r;
+    return Surface(pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(load(normalGeometric, pixel).xy));
 }
 
 // Where the planes of two surfaces meet, as seen on the way from a's pixel to b's; 0.5 where they do not, or do so elsewhere.
@@ -50,7 +50,7 @@ uint crossingBetween(Surface a, Surface b, Side side) {
 #endif
     uint record = 0u;
 #ifdef WITH_RECORDS
-    record = texelFetch(lineRecord, side.ownedByOther ? b.pixel : a.pixel, 0).r;
+    record = load(lineRecord, side.ownedByOther ? b.pixel : a.pixel).r;
 #endif
     float far = clamp((min(a.depth, b.depth) - params.fadeFrom) * params.fadeScale, 0.0, 1.0);
     return encodeCrossing(Crossing(place, side.source, record, 1.0 - params.taper * far, 1.0 - params.fade * far, side.ownedByOther));
@@ -59,7 +59,7 @@ uint crossingBetween(Surface a, Surface b, Side side) {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
-    uint found = texelFetch(sides, pixel, 0).r;
+    uint found = load(sides, pixel).r;
     Surface here = surfaceAt(pixel);
     uint right = crossingBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1)), decodeSide(found, 0));
     uint above = crossingBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)), decodeSide(found, 1));

@@ -6,6 +6,6 @@ void main() {
     if (any(greaterThanEqual(tile * MASK_TILE, view.size))) return;
     uint found = 0u;
     for (int y = 0; y < MASK_TILE; ++y)
-        for (int x = 0; x < MASK_TILE; ++x) found |= texelFetch(sides, min(tile * MASK_TILE + ivec2(x, y), view.size - 1), 0).r;
+        for (int x = 0; x < MASK_TILE; ++x) found |= load(sides, min(tile * MASK_TILE + ivec2(x, y), view.size - 1)).r;
     write_result(vec4(found != 0u ? 1.0 : 0.0));
 }

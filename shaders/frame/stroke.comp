@@ -99,18 +99,18 @@ void main() {
     for (int y = -params.window; y < params.window; ++y) {
         for (int x = -params.window; x < params.window; ++x) {
             ivec2 cell = clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1);
-            uvec2 one = texelFetch(first, cell, 0).xy;
+            uvec2 one = load(first, cell).xy;
             vec2 fromCorner = here - vec2(cell - pixel);
             if (one.x == 0u) continue;
             add(see(one, fromCorner));
-            uvec2 two = texelFetch(second, cell, 0).xy;
+            uvec2 two = load(second, cell).xy;
             if (two.x != 0u) add(see(two, fromCorner));
         }
     }
     finish();
     vec4 color = params.opacity * (vec4(top.rgb, 1) * top.a + (1.0 - top.a) * rest.a * vec4(rest.rgb, 1));
 #ifdef LAYERS_BELOW
-    color += texelFetch(layersBelow, pixel, 0) * (1.0 - color.a);
+    color += load(layersBelow, pixel) * (1.0 - color.a);
 #endif
     write_result(color);
 }

@@ -8,20 +8,20 @@ const int COARSE = 2;
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float z = texelFetch(depth, pixel, 0).r;
+    float z = load(depth, pixel).r;
     if (isBackground(z)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, z);
-    vec3 n = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    vec3 n = decodeNormal(load(normal, pixel).xy);
     float perFootprint = 1.0 / pixelFootprint(z);
     ivec2 base = pixel / COARSE, odd = pixel - base * COARSE, last = (view.size - 1) / COARSE;
     float sum = 0.0, total = 0.0, nearest = 3.4e38, ofNearest = 1.0;
     for (int i = 0; i < 4; ++i) {
         // Without branches: a pixel in line with the texels has itself for its neighbour, twice or four times.
         ivec2 texel = min(base + ivec2(i & 1, i >> 1) * odd, last);
-        float there = texelFetch(coarseDepth, texel, 0).r, value = texelFetch(source, texel, 0).r;
+        float there = load(coarseDepth, texel).r, value = load(source, texel).r;
         // Beyond any length where nothing is there.
         float distance = isBackground(there) ? 1e9 : abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
         // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.

@@ -25,11 +25,16 @@ std::string prelude(const Graph& graph, const PlannedPass& planned, const Unifor
     return text;
 }
 
-std::string samplers(const Graph& graph, const Pass& pass) {
-    std::string text;
+/// The images that a pass reads, each by load(name, pixel). Software renderers load from images a quarter faster than they fetch from textures, whose
+/// levels they look up for every pixel; what cannot be an image (depth) is a texture everywhere.
+std::string readable(const Graph& graph, const Pass& pass, bool asImages) {
+    std::string text = asImages ? "#define load(image, pixel) imageLoad(image, pixel)\n" : "#define load(image, pixel) texelFetch(image, pixel, 0)\n";
     int unit = 0;
-    for (const auto& read : pass.reads)
-        text += fmt::format("layout(binding = {}) uniform {}sampler2D {};\n", unit++, info(resourceOf(graph, read.resource).format).glslPrefix, read.name);
+    for (const auto& read : pass.reads) {
+        const FormatInfo format = info(resourceOf(graph, read.resource).format);
+        if (asImages && !format.glslImage.empty()) text += fmt::format("layout(binding = {}, {}) uniform readonly {}image2D {};\n", unit++, format.glslImage, format.glslPrefix, read.name);
+        else text += fmt::format("layout(binding = {}) uniform {}sampler2D {};\n", unit++, format.glslPrefix, read.name);
+    }
     return text;
 }
 
@@ -67,16 +72,16 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
     if (!compute || pass.mask < 0) names += "#define IS_MASKED(pixel) false\n";
     if (compute) {
         // Compute passes look at the mask themselves; screen passes are drawn only where it says.
-        if (pass.mask >= 0) names += fmt::format("#define IS_MASKED(pixel) (texelFetch({}, (pixel) / MASK_TILE, 0).r == 0.0)\n", pass.reads[static_cast<std::size_t>(pass.mask)].name);
+        if (pass.mask >= 0) names += fmt::format("#define IS_MASKED(pixel) (load({}, (pixel) / MASK_TILE).r == 0.0)\n", pass.reads[static_cast<std::size_t>(pass.mask)].name);
         head += fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
-        stages.push_back({gl::ShaderStage::Kind::compute, head + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
+        stages.push_back({gl::ShaderStage::Kind::compute, head + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
     } else if (screen) {
         stages.push_back({gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load(pass.mask >= 0 ? "frame/tiles.vert" : "frame/screen.vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n" + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".comp")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n" + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
     } else {
         // The vertex stage needs to know what is written, so that it hands on nothing else.
         stages.push_back({gl::ShaderStage::Kind::vertex, head + names + shaders_.load(pass.shader + ".vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + names + samplers(graph, pass) + outputs + shaders_.load(pass.shader + ".frag")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".frag")});
     }
     std::string key;
     for (const auto& stage : stages) key += stage.source;
@@ -118,7 +123,7 @@ static bool isDue(const Pass& pass, const View& view) {
     return true;
 }
 
-void Executor::run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, const RayScene* rays, bool measure) {
+void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
     const gl::Buffer viewBuffer(block.bytes, "view");
@@ -152,8 +157,13 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, const
         std::optional<gl::Buffer> params;
         if (!pass.params.bytes.empty()) params.emplace(pass.params.bytes, pass.name + " params").bindUniform(1);
         scene.bind();
+        const bool asImages = pass.kind == Pass::Kind::compute && drawsScreen();
         int unit = 0;
-        for (const auto& read : pass.reads) texture(plan, read.resource).bindSampler(unit++);
+        for (const auto& read : pass.reads) {
+            const auto& image = texture(plan, read.resource);
+            if (asImages && !info(image.format()).glslImage.empty()) image.bindImage(unit++, gl::Access::read);
+            else image.bindSampler(unit++);
+        }
         if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
         else if (drawsScreen()) runScreen(graph, plan, planned, view, linked);
         else runCompute(graph, plan, planned);
@@ -182,7 +192,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
         if (!planned.writes[w]) continue;
         const auto& image = texture(plan, pass.writes[w].resource);
         if (pass.mask >= 0) image.clear();
-        image.bindImage(slot++, pass.writes[w].mean);
+        image.bindImage(slot++, pass.writes[w].mean ? gl::Access::readWrite : gl::Access::write);
         size = glm::max(size, image.size());
     }
     gl::dispatch(size, kGroup);
@@ -260,7 +270,44 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
     gl::barrier();
 }
 
-void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& linked) {
+/// Draws the scene as the picture's camera sees it, without what it cannot see: first what faces it, then what that does not hide.
+void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer, const gl::Program& linked, const gl::Texture* depth) {
+    const auto draw = [&](auto&& what) {
+        framebuffer.bind(), linked.use();
+        gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
+        gl::setViewport({0, 0}, view.canvas.size * raster);
+        // Of a canvas larger than the region only that part is of interest.
+        const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
+        what();
+    };
+    if (!depth || !scene.isCullable()) return draw([&] { scene.draw(); });
+    draw([&] { scene.drawSeen(nullptr); });
+    const FarthestDepths farthest = farthestDepths(*depth);
+    draw([&] { scene.drawSeen(&farthest); });
+}
+
+FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {
+    FarthestDepths farthest;
+    farthest.size = (depth.size() + farthest.side - 1) / farthest.side;
+    const gl::DebugGroup group("farthest_depths");
+    if (!farthestDepths_ || farthestDepths_.size() != farthest.size) farthestDepths_ = {}, farthestDepths_ = gl::Texture(Format::r32f, farthest.size, "farthest depths");
+    if (!farthestProgram_)
+        farthestProgram_ = gl::Program(std::vector<gl::ShaderStage>{{gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load("frame/screen.vert")}, {gl::ShaderStage::Kind::fragment, fmt::format("#version 450 core\n#define SIDE {}\n", farthest.side) + shaders_.load("frame/farthest_depths.frag")}}, "farthest_depths");
+    const gl::Texture* target = &farthestDepths_;
+    const gl::Framebuffer framebuffer({&target, 1}, nullptr, "farthest_depths");
+    framebuffer.bind(), farthestProgram_.use();
+    gl::setDepthTest(gl::DepthTest::none);
+    gl::setViewport({0, 0}, farthest.size);
+    depth.bindSampler(0);
+    if (!noVertices_) noVertices_ = gl::VertexArray::empty();
+    noVertices_.bind();
+    gl::drawScreen();
+    gl::barrier();
+    farthest.values = farthestDepths_.read(1);
+    return farthest;
+}
+
+void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene, const gl::Program& linked) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::vector<const gl::Texture*> colours;
     std::vector<glm::vec4> clears;
@@ -280,11 +327,7 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
-        const int raster = pass.rate == Pass::Rate::sample ? 1 : view.split.raster;
-        gl::setViewport({0, 0}, view.canvas.size * raster);
-        // Of a canvas larger than the region only that part is of interest.
-        const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
-        scene.draw();
+        drawSeen(view, scene, pass.rate == Pass::Rate::sample ? 1 : view.split.raster, framebuffer, linked, depth);
     }
     for (const auto& drawing : pass.drawings) {
         gl::setViewport({drawing.viewport.x, drawing.viewport.y}, {drawing.viewport.z, drawing.viewport.w});

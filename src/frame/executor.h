@@ -27,7 +27,7 @@ public:
     /// Draws one sample of a frame; the first one of a frame or sub-frame also what its samples share. Samples must come in order. With
     /// `measure`, adds each pass's GPU time to milliseconds().
     /// `rays` is there when the plan needs SceneData::rays.
-    void run(const Graph& graph, const Plan& plan, const View& view, const GpuScene& scene, const RayScene* rays, bool measure);
+    void run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure);
 
     /// A result of the last run that was asked for.
     const gl::Texture& texture(const Plan& plan, ResourceId resource) const;
@@ -45,7 +45,10 @@ private:
     void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
     void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
     bool drawsScreen() const { return device_.report().isSoftware; }
-    void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const GpuScene& scene, const gl::Program& program);
+    void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene, const gl::Program& program);
+
+    void drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer, const gl::Program& program, const gl::Texture* depth);
+    FarthestDepths farthestDepths(const gl::Texture& depth);
 
     const gl::Device& device_;
     const ShaderLibrary& shaders_;
@@ -54,6 +57,8 @@ private:
     std::vector<double> milliseconds_;
     double transferMilliseconds_ = 0;
     gl::VertexArray noVertices_;
+    gl::Program farthestProgram_;
+    gl::Texture farthestDepths_;
     bool timerIsWarm_ = false;
 };
 

@@ -54,6 +54,9 @@ constexpr int kHasHoles = 1, kTakesVertexColors = 2;
 
 constexpr std::uint32_t kNoWords = ~0u;
 
+// Scenes with fewer triangles are always drawn whole: even software renderers take but some milliseconds.
+constexpr std::size_t kManyTriangles = 1 << 16;
+
 template <class T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) { return std::as_bytes(std::span(values)); }
 
@@ -95,6 +98,16 @@ glm::dmat3 invertible(glm::dmat3 m) {
         m[c] = glm::normalize(across) * (1e-9 * size);
     }
     return m;
+}
+
+/// Where an instance's mesh is, seen from its pivot: normalized view space from mesh units.
+struct Placement {
+    glm::dmat3 linear;
+    glm::dvec3 pivot;
+};
+
+Placement placementOf(const DrawInstance& instance, const glm::dvec3& pivot, const View& view) {
+    return {invertible(view.viewFromRelative * glm::dmat3(instance.worldFromMesh)), view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(pivot, 1)))};
 }
 
 /// Reversed-depth perspective over `fov` (full angle, radians), square.
@@ -159,7 +172,7 @@ ShadowLayout shadowLayout(std::span<const Light> lights) {
     return layout;
 }
 
-GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits) : needs_(needs), meshOf_(meshOf.begin(), meshOf.end()) {
+GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits, bool cullable) : needs_(needs), meshOf_(meshOf.begin(), meshOf.end()) {
     if (!has(needs, SceneData::positions)) return;
     const auto most = static_cast<std::uint64_t>(limits.maxBufferTexels);
     if (countAll(meshes, &TriMesh::indices) / 3 > most || countAll(meshes, &TriMesh::positions) > most)
@@ -203,6 +216,10 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
     }
     if (words.size() > most) throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene's triangles have more materials, parts and vertex colours than this GL device takes ({} numbers)", most), "use coarser meshes or another device");
     positions_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
+    std::size_t drawn = 0;
+    for (const auto& command : commands) drawn += command.count / 3;
+    if (cullable && drawn >= kManyTriangles)
+        for (const auto& mesh : meshes) clusters_.push_back(makeClusters(mesh));
     indices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
     words_ = gl::Buffer(bytesOf(words), "words");
     commands_ = gl::Buffer(bytesOf(commands), "draw commands");
@@ -234,6 +251,7 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         }
     }
     vertexArray_ = gl::VertexArray(inputs, indices_, "scene");
+    inputs_ = std::move(inputs);
 
     atlasEntries_.resize(scene.materials.size());
     if (has(needs, SceneData::textures)) loadTextures(scene, limits.maxTextureSize);
@@ -298,8 +316,7 @@ std::vector<std::byte> GpuScene::instanceBytes(const DrawScene& scene, const Vie
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
         const auto& place = places_[static_cast<std::size_t>(meshOf_[i])];
-        const glm::dmat3 linear = invertible(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
-        const glm::dvec3 pivot = view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(place.pivot, 1)));
+        const auto [linear, pivot] = placementOf(instance, place.pivot, view);
         const glm::dmat3 inverse = glm::inverse(linear);
         const glm::dvec3 offset = inverse * -pivot;
         GpuInstance gpu{};
@@ -348,8 +365,33 @@ std::vector<std::byte> GpuScene::lightBytes(const DrawScene& scene, const View& 
     return {bytes.begin(), bytes.end()};
 }
 
+void GpuScene::placeMeshes(const DrawScene& scene, const View& view) {
+    const glm::vec2 low((view.region.origin - view.canvas.origin) * view.split.raster);
+    cullView_ = {{}, low, low + glm::vec2(view.region.size * view.split.raster), view.orthographic};
+    // Clip space spans the canvas: −1 … 1 become its fine pixels.
+    const glm::dvec2 half = 0.5 * glm::dvec2(view.canvas.size * view.split.raster);
+    glm::dmat4 pixelFromClip(1);
+    pixelFromClip[0][0] = half.x, pixelFromClip[1][1] = half.y, pixelFromClip[3][0] = half.x, pixelFromClip[3][1] = half.y;
+    const glm::dmat4 pixelFromView = pixelFromClip * view.clipFromView();
+    const auto absolute = [](glm::dmat4 m) {
+        for (int column = 0; column < 4; ++column) m[column] = glm::abs(m[column]);
+        return m;
+    };
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& place = places_[static_cast<std::size_t>(meshOf_[i])];
+        const auto [linear, pivot] = placementOf(scene.instances[i], place.pivot, view);
+        glm::dmat4 viewFromMesh(linear);
+        viewFromMesh[3] = glm::dvec4(pivot, 1);
+        PlacedMesh mesh{clusters_[static_cast<std::size_t>(meshOf_[i])], place.firstVertex, 3 * std::size_t{place.firstTriangle}, glm::mat4(pixelFromView * viewFromMesh), glm::mat4(absolute(pixelFromView) * absolute(viewFromMesh)), {}};
+        // The eye is view space's origin; parallel rays come along its z axis.
+        mesh.eye = glm::inverse(linear) * (view.orthographic ? glm::dvec3(0, 0, 1) : -pivot);
+        cullView_.instances.push_back(mesh);
+    }
+}
+
 void GpuScene::setView(const DrawScene& scene, const View& view) {
     if (!has(needs_, SceneData::positions)) return;
+    if (!clusters_.empty()) placeMeshes(scene, view);
     const auto put = [&](gl::Buffer& buffer, const std::vector<std::byte>& data, const char* label) {
         if (!buffer || buffer.size() != data.size()) buffer = gl::Buffer(data, label);
         else buffer.write(data);
@@ -377,6 +419,35 @@ void GpuScene::bind() const {
 void GpuScene::draw() const {
     vertexArray_.bind();
     gl::drawElements(commands_, static_cast<int>(materialTables_.size()));
+}
+
+void GpuScene::drawSeen(const FarthestDepths* farthest) {
+    {
+        const gl::Mapping positions(positions_, gl::Access::read), indices(indices_, gl::Access::read);
+        const TriangleSource source{reinterpret_cast<const glm::vec3*>(positions.bytes()), reinterpret_cast<const std::uint32_t*>(indices.bytes())};
+        if (farthest) chooseBacks(cullView_, source, *farthest, chosen_);
+        else chooseFacing(cullView_, source, chosen_);
+    }
+    std::vector<gl::DrawCommand> commands;
+    std::size_t count = 0;
+    for (const auto& part : chosen_) {
+        if (!part.indices.empty()) commands.push_back({static_cast<std::uint32_t>(part.indices.size()), 1, static_cast<std::uint32_t>(count), static_cast<std::int32_t>(places_[static_cast<std::size_t>(meshOf_[part.instance])].firstVertex), static_cast<std::uint32_t>(part.instance)});
+        count += part.indices.size();
+    }
+    if (count == 0) return;
+    if (const std::size_t bytes = count * sizeof(std::uint32_t); chosenIndices_.size() < bytes) {
+        chosenArray_ = {}, chosenIndices_ = {};
+        chosenIndices_ = gl::Buffer(bytes + bytes / 4, "chosen triangles");
+        chosenArray_ = gl::VertexArray(inputs_, chosenIndices_, "chosen triangles");
+    }
+    {
+        const gl::Mapping mapping(chosenIndices_, gl::Access::write);
+        auto* to = reinterpret_cast<std::uint32_t*>(mapping.bytes());
+        for (const auto& part : chosen_) to = std::copy(part.indices.begin(), part.indices.end(), to);
+    }
+    const gl::Buffer buffer(bytesOf(commands), "draw commands");
+    chosenArray_.bind();
+    gl::drawElements(buffer, static_cast<int>(commands.size()));
 }
 
 }  // namespace limn

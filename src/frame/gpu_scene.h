@@ -1,8 +1,8 @@
 // The scene as the GPU sees it: only the data that the plan reads is uploaded.
 #pragma once
 
+#include "frame/culling.h"
 #include "frame/view.h"
-#include "geometry/tri_mesh.h"
 #include "gl/device.h"
 #include "gl/objects.h"
 #include "graph/graph.h"
@@ -53,8 +53,9 @@ ShadowLayout shadowLayout(std::span<const Light> lights);
 
 class GpuScene {
 public:
-    /// `meshes` may be released afterwards. Reads the textures' files when the plan needs them.
-    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits);
+    /// `meshes` may be released afterwards. Reads the textures' files when the plan needs them. `cullable`: of scenes with many triangles, only
+    /// what can be seen need be drawn.
+    GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf, SceneData needs, const gl::Limits& limits, bool cullable);
 
     /// Recomputes what depends on the camera: instance transforms in double precision, lights.
     void setView(const DrawScene& scene, const View& view);
@@ -62,8 +63,14 @@ public:
     void bind() const;
     void draw() const;   ///< every instance, in scene order
 
+    /// Can parts be drawn?
+    bool isCullable() const { return !clusters_.empty(); }
+    /// What can be seen in the last view's region: triangles that face the camera, or after that, with `farthest`, those that do not (frame/culling.h).
+    void drawSeen(const FarthestDepths* farthest);
+
 private:
     void loadTextures(const DrawScene& scene, int maxTextureSize);
+    void placeMeshes(const DrawScene& scene, const View& view);
     std::vector<std::byte> instanceBytes(const DrawScene& scene, const View& view) const;
     std::vector<std::byte> lightBytes(const DrawScene& scene, const View& view) const;
 
@@ -78,6 +85,13 @@ private:
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_, wordsView_, instancesView_, materialsView_;
     gl::Texture atlas_;
     gl::VertexArray vertexArray_;
+
+    std::vector<std::vector<Cluster>> clusters_;   ///< of each mesh
+    CullView cullView_;
+    std::vector<ChosenTriangles> chosen_;
+    std::vector<gl::VertexInput> inputs_;
+    gl::Buffer chosenIndices_;
+    gl::VertexArray chosenArray_;
 };
 
 }  // namespace limn

@@ -38,16 +38,28 @@ void releaseVertexArray(Id id) { glDeleteVertexArrays(1, &id); }
 void releaseProgram(Id id) { glDeleteProgram(id); }
 void releaseQuery(Id id) { glDeleteQueries(1, &id); }
 
-Buffer::Buffer(std::span<const std::byte> data, const std::string& name) : size_(data.size()) {
+static Id makeBuffer(std::size_t size, const void* data, const std::string& name) {
     GLuint id = 0;
     glCreateBuffers(1, &id);
-    handle_ = Handle<releaseBuffer>(id);
     label(GL_BUFFER, id, name);
     // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(data.empty() ? sizeof nothing : data.size()), data.empty() ? static_cast<const void*>(&nothing) : data.data(), GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT | GL_MAP_WRITE_BIT);
+    return id;
+}
+
+Buffer::Buffer(std::span<const std::byte> data, const std::string& name) : handle_(makeBuffer(data.size(), data.data(), name)), size_(data.size()) {
     if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
 }
+
+Buffer::Buffer(std::size_t size, const std::string& name) : handle_(makeBuffer(size, nullptr, name)), size_(size) {
+    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
+}
+
+Mapping::Mapping(const Buffer& buffer, Access access) : buffer_(buffer.id()), bytes_(static_cast<std::byte*>(glMapNamedBufferRange(buffer_, 0, static_cast<GLsizeiptr>(buffer.size()), access == Access::read ? GL_MAP_READ_BIT : access == Access::write ? GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT : GL_MAP_READ_BIT | GL_MAP_WRITE_BIT))) {
+    if (!bytes_) throw Error(ExitCode::internal, {}, "GL gives no access to a buffer's memory", "please report this");
+}
+Mapping::~Mapping() { glUnmapNamedBuffer(buffer_); }
 
 void Buffer::write(std::span<const std::byte> data) {
     if (!data.empty()) glNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(data.size()), data.data());
@@ -98,8 +110,9 @@ void Texture::writeLayer(int layer, glm::ivec2 origin, glm::ivec2 size, const st
 }
 
 void Texture::bindSampler(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), id()); }
-void Texture::bindImage(int unit, bool readWrite) const {
-    glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, readWrite ? GL_READ_WRITE : GL_WRITE_ONLY, internalFormat(format_));
+void Texture::bindImage(int unit, Access access) const {
+    constexpr GLenum kinds[] = {GL_READ_ONLY, GL_WRITE_ONLY, GL_READ_WRITE};
+    glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, kinds[static_cast<std::size_t>(access)], internalFormat(format_));
 }
 
 std::vector<float> Texture::read(int channels) const {

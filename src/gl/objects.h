@@ -40,11 +40,14 @@ void releaseVertexArray(Id);
 void releaseProgram(Id);
 void releaseQuery(Id);
 
-/// Immutable when made from data; writable when made by size.
+/// What is done with an image or a buffer.
+enum class Access { read, write, readWrite };
+
 class Buffer {
 public:
     Buffer() = default;
     Buffer(std::span<const std::byte> data, const std::string& label);
+    Buffer(std::size_t size, const std::string& label);   ///< nothing in it yet
     void write(std::span<const std::byte> data);   ///< same size as made with
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
@@ -54,6 +57,20 @@ public:
 private:
     Handle<releaseBuffer> handle_;
     std::size_t size_ = 0;
+};
+
+/// A buffer's bytes in memory while this lives. To write them is to write all of them anew. Throws Error (internal) where that cannot be.
+class Mapping {
+public:
+    Mapping(const Buffer& buffer, Access access);
+    ~Mapping();
+    Mapping(const Mapping&) = delete;
+    Mapping& operator=(const Mapping&) = delete;
+    std::byte* bytes() const { return bytes_; }
+
+private:
+    Id buffer_;
+    std::byte* bytes_;
 };
 
 /// What one fetch from a buffer brings.
@@ -80,7 +97,7 @@ public:
     void writeLayer(int layer, glm::ivec2 origin, glm::ivec2 size, const std::uint8_t* rgba) const;
 
     void bindSampler(int unit) const;
-    void bindImage(int unit, bool readWrite) const;
+    void bindImage(int unit, Access access) const;
     /// Floats of the region, rows from the bottom as GL has them; integers come as floats.
     std::vector<float> read(int channels) const;
     std::vector<std::uint32_t> readIntegers(int channels) const;
@@ -145,6 +162,7 @@ public:
     /// Throws Error (internal) with the compiler's words.
     Program(std::span<const ShaderStage> stages, const std::string& label);
     void use() const;
+    explicit operator bool() const { return static_cast<bool>(handle_); }
     void setInt(const char* uniform, int value) const;
 
 private:

@@ -289,7 +289,7 @@ GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& lo
         watch.lap("of which cutting");
     }
     gpuScene_ = nullptr;   // gives the old one's memory back first
-    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits());
+    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits(), device_.report().isSoftware);
     watch.lap("of which upload");
     rayScene_ = nullptr;
     if (has(needs, SceneData::rays)) {

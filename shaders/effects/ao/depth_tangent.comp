@@ -9,7 +9,7 @@ const vec2 NEIGHBOURS[4] = vec2[](vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -
 const vec2 NEIGHBOURS[4] = vec2[](vec2(1, 1), vec2(-1, -1), vec2(1, -1), vec2(-1, 1));
 #endif
 
-float depthAt(ivec2 pixel) { return texelFetch(depth, clamp(pixel, ivec2(0), view.size - 1), 0).r; }
+float depthAt(ivec2 pixel) { return load(depth, clamp(pixel, ivec2(0), view.size - 1)).r; }
 
 // The paper's distance to the camera.
 float distanceAt(ivec2 pixel) {
@@ -72,7 +72,7 @@ void main() {
 #ifdef AS_LINES
     vec4 color = params.color * (1.0 - open);
 #ifdef LAYERS_BELOW
-    color += texelFetch(layersBelow, pixel, 0) * (1.0 - color.a);
+    color += load(layersBelow, pixel) * (1.0 - color.a);
 #endif
     write_result(color);
 #else

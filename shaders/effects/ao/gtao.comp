@@ -12,13 +12,13 @@ const float LEAST_RISE = 1e-4;
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
-    vec3 surface = decodeNormal(texelFetch(normal, pixel * COARSENESS, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel * COARSENESS).xy);
     SightFrame sight = sightFrame(position);
     vec2 random = evenlySpread(pixel);
     float open = 0.0, whole = 0.0;

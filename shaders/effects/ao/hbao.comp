@@ -27,7 +27,7 @@ float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float
         if (!insideRegion(tap)) continue;
 #endif
         if (tap == pixel) continue;
-        vec3 offset = viewPosition(tap, texelFetch(depth, tap, 0).r) - position;
+        vec3 offset = viewPosition(tap, load(depth, tap).r) - position;
         float squared = dot(offset, offset);
         if (squared > params.radius * params.radius) continue;
         float sinH = offset.z * inversesqrt(max(squared, 1e-30));
@@ -43,13 +43,13 @@ float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
-    vec3 surface = decodeNormal(texelFetch(normal, pixel * COARSENESS, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel * COARSENESS).xy);
     vec2 random = evenlySpread(pixel);
     float first = random.x * (4.0 * HALF_PI / float(DIRECTIONS));
     vec2 turn = vec2(cos(first), sin(first));

@@ -33,13 +33,13 @@ vec3 turnOf(ivec2 pixel) {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
-    vec3 surface = decodeNormal(texelFetch(normal, pixel * COARSENESS, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel * COARSENESS).xy);
     mat3 basis = turnedBasis(surface, turnOf(pixel));
     float squaredRadius = params.radius * params.radius, hidden = 0.0;
     for (int i = 0; i < POINT_COUNT; ++i) {
@@ -54,7 +54,7 @@ void main() {
         if (!insideRegion(tap)) continue;
 #endif
         if (tap == pixel) continue;
-        float there = texelFetch(depth, tap, 0).r;
+        float there = load(depth, tap).r;
 #ifdef COMPARE_HEIGHT
         float compared = depthAtHeight(tap, position, surface, dot(offset, surface));
 #else

@@ -14,13 +14,13 @@ float occlusionOf(float difference) {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
-    vec3 surface = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel).xy);
     vec2 random = evenlySpread(pixel);
 #ifdef OFFSET_IN_IMAGE
     float farthest = params.offset;
@@ -41,9 +41,9 @@ void main() {
         if (!insideRegion(tap)) continue;
 #endif
         if (tap == pixel) continue;
-        float there = texelFetch(depth, tap, 0).r;
+        float there = load(depth, tap).r;
 #ifdef COMPARE_NORMALS
-        if (dot(decodeNormal(texelFetch(normal, tap, 0).xy), surface) > params.sameNormal) continue;
+        if (dot(decodeNormal(load(normal, tap).xy), surface) > params.sameNormal) continue;
 #else
         if (isBackground(there) || dot(viewPosition(tap, there) - position, surface) <= params.sameHeight) continue;
 #endif

@@ -6,10 +6,45 @@
 #include "lib/normals.glsl"
 #endif
 
+// How much of a point of the kernel is hidden: 0 or 1, less where the occluder is much nearer than the radius. Written without branches, so that
+// software renderers need not walk a loop for it.
+float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 mirror, vec3 surface) {
+    vec3 offset = reflect(kernelPoint, mirror);
+    float height = dot(offset, surface);
+#ifdef HEMISPHERE
+    offset = height < 0.0 ? -offset : offset;
+    height = abs(height);
+#endif
+#ifdef RADIUS_IN_IMAGE
+    ivec2 tap = clamp(pixelFrom(pixel, offset.xy * params.radiusPixels), ivec2(0), view.size - 1);
+    float reach = params.radiusPixels * pixelFootprint(centre);
+    bool counts = tap != pixel;
+#else
+    vec3 point = position + offset * params.radius;
+    float reach = params.radius;
+    // A point behind the eye falls on no pixel.
+    bool isBefore = view.orthographic || point.z <= -1e-3 * centre;
+    ivec2 tap = pixelOf(vec3(point.xy, isBefore ? point.z : -centre));
+    bool counts = isBefore && insideRegion(tap) && tap != pixel;
+#endif
+    float there = load(depth, tap).r;
+#if defined(POINT_DEPTH) && !defined(RADIUS_IN_IMAGE)
+    bool isHidden = there < depthAtHeight(tap, position, surface, height * params.radius) * (1.0 - DEPTH_SLACK);
+#else
+    bool isHidden = there < centre * (1.0 - DEPTH_SLACK);
+#endif
+    float share = isHidden && counts ? 1.0 : 0.0;
+#ifdef RANGE_CHECK
+    // Full within the radius, gone at twice the radius.
+    share *= clamp(2.0 - (centre - there) / reach, 0.0, 1.0);
+#endif
+    return share;
+}
+
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
@@ -17,42 +52,12 @@ void main() {
     vec3 position = viewPosition(pixel, centre);
     vec3 mirror = onSphere(evenlySpread(pixel));
 #ifdef HEMISPHERE
-    vec3 surface = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel).xy);
 #else
     vec3 surface = vec3(0, 0, 1);
 #endif
     float hidden = 0.0;
-    for (int i = 0; i < POINT_COUNT; ++i) {
-        vec3 offset = reflect(params.kernelPoints[i].xyz, mirror);
-#ifdef HEMISPHERE
-        offset = dot(offset, surface) < 0.0 ? -offset : offset;
-#endif
-#ifdef RADIUS_IN_IMAGE
-        ivec2 tap = clamp(pixelFrom(pixel, offset.xy * params.radiusPixels), ivec2(0), view.size - 1);
-        vec3 point = position;
-        float reach = params.radiusPixels * pixelFootprint(centre);
-#else
-        vec3 point = position + offset * params.radius;
-        // A point behind the eye falls on no pixel.
-        if (!view.orthographic && point.z > -1e-3 * centre) continue;
-        ivec2 tap = pixelOf(point);
-        float reach = params.radius;
-        if (!insideRegion(tap)) continue;
-#endif
-        if (tap == pixel) continue;
-        float there = texelFetch(depth, tap, 0).r;
-#if defined(POINT_DEPTH) && !defined(RADIUS_IN_IMAGE)
-        float compared = depthAtHeight(tap, position, surface, dot(point - position, surface));
-#else
-        float compared = centre;
-#endif
-        float isHidden = there < compared * (1.0 - DEPTH_SLACK) ? 1.0 : 0.0;
-#ifdef RANGE_CHECK
-        // Full within the radius, gone at twice the radius.
-        isHidden *= clamp(2.0 - (centre - there) / reach, 0.0, 1.0);
-#endif
-        hidden += isHidden;
-    }
+    for (int i = 0; i < POINT_COUNT; ++i) hidden += hiddenAt(params.kernelPoints[i].xyz, pixel, centre, position, mirror, surface);
     float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(POINT_COUNT);
 #ifdef QUADRATIC
     share *= share;

@@ -66,7 +66,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));
         ivec2 tap = pixelFrom(pixel, direction * reach);
         if (tap == pixel || !insideRegion(tap)) continue;
-        float there = texelFetch(depth, tap, 0).r;
+        float there = load(depth, tap).r;
         vec3 offset = viewPosition(tap, there) - position;
         bool exists = !isBackground(there);
         vec2 at = inSlice(s, offset);
@@ -83,7 +83,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
         }
 #endif
 #ifdef JOIN
-        vec3 face = exists ? decodeNormal(texelFetch(normal, tap * COARSENESS, 0).xy) : vec3(0);
+        vec3 face = exists ? decodeNormal(load(normal, tap * COARSENESS).xy) : vec3(0);
         if (exists && before.exists && (isNear || before.isNear)) {
             // Neighbours are of one surface, or of two that meet, if one of them lies near the other's tangent plane. Steps of many
             // pixels may pass over more, but not in proportion: else they join things that only stand near each other in the picture.
@@ -105,13 +105,13 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r;
+    float centre = load(depth, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(1));
         return;
     }
     vec3 position = viewPosition(pixel, centre);
-    vec3 surface = decodeNormal(texelFetch(normal, pixel * COARSENESS, 0).xy);
+    vec3 surface = decodeNormal(load(normal, pixel * COARSENESS).xy);
     SightFrame sight = sightFrame(position);
     vec2 random = evenlySpread(pixel);
     float open = 0.0, whole = 0.0;

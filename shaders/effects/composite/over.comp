@@ -4,15 +4,15 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    vec4 color = texelFetch(shade, pixel, 0);
+    vec4 color = load(shade, pixel);
 #ifdef WITH_EDGES
-    vec4 line = texelFetch(edges, pixel, 0);
+    vec4 line = load(edges, pixel);
     color = line + color * (1.0 - line.a);
 #endif
     color += params.background * (1.0 - color.a);
 #ifdef WITH_FACTOR
     // Where the background is left out, what darkens it stays.
-    float factor_ = texelFetch(factor, pixel, 0).r;
+    float factor_ = load(factor, pixel).r;
     color = vec4(color.rgb * factor_, mix(1.0, color.a, factor_));
 #endif
     write_result(color);

@@ -15,21 +15,21 @@ struct Surface {
 
 Surface surfaceAt(ivec2 pixel) {
     Surface s;
-    s.depth = texelFetch(depth, pixel, 0).r;
+    s.depth = load(depth, pixel).r;
     s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
-    s.face = decodeNormal(texelFetch(normalGeometric, pixel, 0).xy);
+    s.face = decodeNormal(load(normalGeometric, pixel).xy);
 #ifdef WITH_CREASES
-    s.normal = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    s.normal = decodeNormal(load(normal, pixel).xy);
 #endif
 #ifdef WITH_OBJECTS
-    s.object = texelFetch(objectId, pixel, 0).r;
+    s.object = load(objectId, pixel).r;
 #endif
 #ifdef WITH_MATERIALS
-    s.material = texelFetch(materialId, pixel, 0).r;
+    s.material = load(materialId, pixel).r;
 #endif
     s.record = 0u;
 #ifdef WITH_RECORDS
-    s.record = texelFetch(lineRecord, pixel, 0).r;
+    s.record = load(lineRecord, pixel).r;
 #endif
     return s;
 }

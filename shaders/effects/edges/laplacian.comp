@@ -19,14 +19,14 @@ bool isIn(uint number, uint firstWord) {
 
 Surface surfaceAt(ivec2 pixel) {
     Surface s;
-    s.depth = texelFetch(depth, pixel, 0).r;
+    s.depth = load(depth, pixel).r;
     s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
-    s.face = decodeNormal(texelFetch(normalGeometric, pixel, 0).xy);
-    s.label = texelFetch(objectId, pixel, 0).r;
+    s.face = decodeNormal(load(normalGeometric, pixel).xy);
+    s.label = load(objectId, pixel).r;
 #ifdef CHOSEN
     bool chosen = isIn(s.label, 0u);
 #ifdef CHOSEN_MATERIALS
-    chosen = chosen || isIn(texelFetch(materialId, pixel, 0).r, uint(params.firstMaterialWord));
+    chosen = chosen || isIn(load(materialId, pixel).r, uint(params.firstMaterialWord));
 #endif
     s.label = uint(chosen);
 #endif

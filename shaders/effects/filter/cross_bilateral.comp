@@ -6,27 +6,27 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float centre = texelFetch(depth, pixel, 0).r, here = texelFetch(source, pixel, 0).r;
+    float centre = load(depth, pixel).r, here = load(source, pixel).r;
     if (isBackground(centre)) {
         write_result(vec4(here));
         return;
     }
     float perFootprint = 1.0 / pixelFootprint(centre), sum = here, total = 1.0;
 #ifdef BY_PLANE
-    vec3 position = viewPosition(pixel, centre), n = decodeNormal(texelFetch(normal, pixel, 0).xy);
+    vec3 position = viewPosition(pixel, centre), n = decodeNormal(load(normal, pixel).xy);
 #endif
     for (int i = -HALF; i <= HALF; ++i) {
         // Beyond what was drawn lies nothing: the border's own pixel again, which is alike only if it is near.
         ivec2 tap = clamp(pixel + params.axis * i, ivec2(0), view.size - 1);
         if (tap == pixel) continue;
-        float there = texelFetch(depth, tap, 0).r;
+        float there = load(depth, tap).r;
 #ifdef BY_PLANE
         float off = offPlane(position, n, perFootprint, tap, there);
 #else
         float off = abs(there - centre) * perFootprint;
 #endif
         float weight = params.weights[abs(i) / 4][abs(i) & 3] * bell(min(off * params.perStep, 1.0));
-        sum += weight * texelFetch(source, tap, 0).r, total += weight;
+        sum += weight * load(source, tap).r, total += weight;
     }
     write_result(vec4(sum / total));
 }

@@ -1,7 +1,7 @@
 // (1 2 1)/4 applied TAPS_BESIDE times, along rows or along columns: binomial weights.
 #include "lib/space.glsl"
 
-float sourceAt(ivec2 pixel) { return texelFetch(source, clamp(pixel, ivec2(0), view.size - 1), 0).r; }
+float sourceAt(ivec2 pixel) { return load(source, clamp(pixel, ivec2(0), view.size - 1)).r; }
 
 void main() {
     ivec2 pixel = thisPixel();

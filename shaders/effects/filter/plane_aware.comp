@@ -9,7 +9,7 @@ const float WEIGHTS[2] = float[](1.0, 0.5);
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    vec4 here = texelFetch(surfaces, pixel, 0);
+    vec4 here = load(surfaces, pixel);
     if (isBackground(here.y)) {
         write_result(here);
         return;
@@ -20,7 +20,7 @@ void main() {
         for (int x = -1; x <= 1; ++x) {
             if (x == 0 && y == 0) continue;
             ivec2 tap = clamp(pixel + ivec2(x, y) * params.spacing, ivec2(0), view.size - 1);
-            vec4 there = texelFetch(surfaces, tap, 0);
+            vec4 there = load(surfaces, tap);
             vec3 turned = decodeNormal(there.zw) - n;
             float off = offPlane(position, n, perFootprint, tap, there.y);
             // Squared inside: bell() of both distances at once.

@@ -73,7 +73,7 @@ void writeBackground() {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    uvec2 id = texelFetch(visibility, (pixel + view.placeInCanvas) * view.raster + view.placeOnRaster, 0).xy;
+    uvec2 id = load(visibility, (pixel + view.placeInCanvas) * view.raster + view.placeOnRaster).xy;
     if (id.x == 0u) {
         writeBackground();
         return;

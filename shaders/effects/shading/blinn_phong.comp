@@ -4,13 +4,13 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    vec4 color = texelFetch(albedo, pixel, 0);
-    float z = texelFetch(depth, pixel, 0).r;
+    vec4 color = load(albedo, pixel);
+    float z = load(depth, pixel).r;
     if (!isBackground(z)) {
         vec3 position = viewPosition(pixel, z);
-        Material material = materialAt(texelFetch(materialId, pixel, 0).r - 1u);
+        Material material = materialAt(load(materialId, pixel).r - 1u);
         bool own = params.exponent == 0.0;
-        Lighting lit = lightingAt(pixel, position, decodeNormal(texelFetch(normal, pixel, 0).xy), towardsEye(position), own ? material.shininess : params.exponent, vec2(params.linear, params.quadratic));
+        Lighting lit = lightingAt(pixel, position, decodeNormal(load(normal, pixel).xy), towardsEye(position), own ? material.shininess : params.exponent, vec2(params.linear, params.quadratic));
         // Highlights have the light's colour, not the object's; they cover as much as the object does.
         color.rgb = color.rgb * (lit.diffuse + params.ambient * openness(pixel, params.ao_strength)) + lit.highlight * (params.specular * (own ? material.specular : 1.0) * color.a);
     }

@@ -4,9 +4,9 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    vec4 color = texelFetch(albedo, pixel, 0);
+    vec4 color = load(albedo, pixel);
 #ifdef WITH_AO
-    color.rgb *= mix(1.0, texelFetch(ambientOcclusion, pixel, 0).r, params.aoStrength);
+    color.rgb *= mix(1.0, load(ambientOcclusion, pixel).r, params.aoStrength);
 #endif
     write_result(color);
 }

@@ -7,9 +7,9 @@
 const float BAND_BIAS = 1e-4;
 
 #ifdef COLORED_LIGHT
-float intensityAt(ivec2 pixel) { return texelFetch(light, pixel, 0).a; }
+float intensityAt(ivec2 pixel) { return load(light, pixel).a; }
 #else
-float intensityAt(ivec2 pixel) { return texelFetch(light, pixel, 0).r; }
+float intensityAt(ivec2 pixel) { return load(light, pixel).r; }
 #endif
 
 // The smaller of the differences to both sides: across an edge of the object one side is meaningless, the other is not.
@@ -24,7 +24,7 @@ float slope(ivec2 pixel, ivec2 axis, float here) {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    vec4 color = texelFetch(albedo, pixel, 0);
+    vec4 color = load(albedo, pixel);
     float intensity = intensityAt(pixel);
     // Intensity changes this much over the wanted width of a band's edge.
     float width = params.edgeSoftness <= 0.0 ? 0.0 : params.edgeSoftness * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
@@ -37,7 +37,7 @@ void main() {
         level += (params.bands[i].rgb - params.bands[i - 1].rgb) * reached;
     }
 #ifdef COLORED_LIGHT
-    level *= texelFetch(light, pixel, 0).rgb;
+    level *= load(light, pixel).rgb;
 #endif
 #ifdef DISPLAY_ENCODED
     color.rgb = srgbToLinear(clamp(linearToSrgb(color.rgb) * level, 0.0, 1.0)) * color.a;

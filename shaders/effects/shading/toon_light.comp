@@ -7,15 +7,15 @@
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    float z = texelFetch(depth, pixel, 0).r;
+    float z = load(depth, pixel).r;
     if (isBackground(z)) {
         write_result(vec4(0));
         return;
     }
     vec3 position = viewPosition(pixel, z);
-    Material material = materialAt(texelFetch(materialId, pixel, 0).r - 1u);
+    Material material = materialAt(load(materialId, pixel).r - 1u);
     vec3 eye = params.trueViewDirection ? towardsEye(position) : vec3(0, 0, 1);
-    Lighting lit = lightingAt(pixel, position, decodeNormal(texelFetch(normal, pixel, 0).xy), eye, material.shininess, vec2(0));
+    Lighting lit = lightingAt(pixel, position, decodeNormal(load(normal, pixel).xy), eye, material.shininess, vec2(0));
     vec3 light = (lit.diffuse + params.ambient) * openness(pixel, params.aoStrength) + params.extraAmbient + lit.highlight * (material.specular * params.specular);
 #ifdef COLORED_LIGHT
     float intensity = max(light.r, max(light.g, light.b));
