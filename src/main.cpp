@@ -8,9 +8,7 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
-#include <string_view>
 #include <unistd.h>
 
 namespace {
@@ -23,14 +21,6 @@ using limn::ExitCode;
     _exit(static_cast<int>(code));
 }
 
-/// Meshes, textures and the software renderer's images are large blocks of memory, and touching them page by page costs an eighth of a short render
-/// (1.6 M triangles, one sample: 2.04 s, with large pages 1.77 s). glibc asks for large pages only if it is told to before a program begins: begin again,
-/// with that. Whoever sets GLIBC_TUNABLES knows better.
-void beginWithLargePages(int argc, char** argv) {
-    const bool draws = argc > 1 && std::string_view(argv[1]) == "render";
-    if (draws && !std::getenv("GLIBC_TUNABLES") && setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 1) == 0) execv("/proc/self/exe", argv);
-}
-
 ExitCode report(const limn::Error& error) {
     limn::log::error("{}", error.message);
     return error.code;
@@ -40,7 +30,6 @@ ExitCode report(const limn::Error& error) {
 
 int main(int argc, char** argv) {
     using namespace limn;
-    beginWithLargePages(argc, argv);
     // A file that grows past its limit must be an error we report, not a signal that kills us.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
