@@ -115,11 +115,13 @@ void Texture::bindImage(int unit, Access access) const {
     glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, kinds[static_cast<std::size_t>(access)], internalFormat(format_));
 }
 
-std::vector<float> Texture::read(int channels) const {
-    std::vector<float> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
+static std::size_t countOf(glm::ivec2 size, int channels) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(channels); }
+
+std::vector<float> Texture::read(int channels, glm::ivec2 origin, glm::ivec2 size) const {
+    std::vector<float> pixels(countOf(size, channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA};
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(id(), 0, format_ == Format::depth32f ? GL_DEPTH_COMPONENT : formats[channels], GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
+    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1, format_ == Format::depth32f ? GL_DEPTH_COMPONENT : formats[channels], GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
     return pixels;
 }
 
@@ -136,11 +138,11 @@ void Texture::clear() const {
     glClearTexImage(id(), 0, (isInteger ? integers : formats)[channels], isInteger ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
 }
 
-std::vector<std::uint32_t> Texture::readIntegers(int channels) const {
-    std::vector<std::uint32_t> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(channels));
+std::vector<std::uint32_t> Texture::readIntegers(int channels, glm::ivec2 origin, glm::ivec2 size) const {
+    std::vector<std::uint32_t> pixels(countOf(size, channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(id(), 0, formats[channels], GL_UNSIGNED_INT, static_cast<GLsizei>(pixels.size() * sizeof(std::uint32_t)), pixels.data());
+    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1, formats[channels], GL_UNSIGNED_INT, static_cast<GLsizei>(pixels.size() * sizeof(std::uint32_t)), pixels.data());
     return pixels;
 }
 

@@ -98,9 +98,10 @@ public:
 
     void bindSampler(int unit) const;
     void bindImage(int unit, Access access) const;
-    /// Floats of the region, rows from the bottom as GL has them; integers come as floats.
-    std::vector<float> read(int channels) const;
-    std::vector<std::uint32_t> readIntegers(int channels) const;
+    /// The image, or a rectangle of it, rows from the bottom as GL has them.
+    std::vector<float> read(int channels) const { return read(channels, glm::ivec2(0), size_); }
+    std::vector<float> read(int channels, glm::ivec2 origin, glm::ivec2 size) const;
+    std::vector<std::uint32_t> readIntegers(int channels, glm::ivec2 origin, glm::ivec2 size) const;
 
     /// The other way round, of the whole image.
     void write(std::span<const float> values) const;

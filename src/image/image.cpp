@@ -9,10 +9,46 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace limn {
 namespace {
+
+/// Linear 0 … 1 → 8 display-encoded bits, rounded to nearest: what linearToSrgb() gives, by where its steps are instead of a power per channel.
+class EightBits {
+public:
+    EightBits() {
+        least_[0] = 0;
+        for (int code = 1; code < 256; ++code) {
+            // The least float that rounds to the code: bits of positive floats are in the order of their values.
+            std::uint32_t below = std::bit_cast<std::uint32_t>(least_[static_cast<std::size_t>(code - 1)]), reached = std::bit_cast<std::uint32_t>(1.0f);
+            while (reached - below > 1) {
+                const std::uint32_t middle = below + (reached - below) / 2;
+                (std::lround(linearToSrgb(std::bit_cast<float>(middle)) * 255) >= code ? reached : below) = middle;
+            }
+            least_[static_cast<std::size_t>(code)] = std::bit_cast<float>(reached);
+        }
+        least_[256] = std::numeric_limits<float>::infinity();
+        for (std::size_t cell = 0, code = 0; cell < first_.size(); ++cell) {
+            while (least_[code + 1] <= static_cast<float>(cell) / kCells) ++code;
+            first_[cell] = static_cast<std::uint8_t>(code);
+        }
+    }
+
+    std::uint8_t operator()(float value) const {
+        std::size_t code = first_[static_cast<std::size_t>(value * kCells)];
+        while (value >= least_[code + 1]) ++code;   // once at most: cells are narrower than the narrowest step
+        return static_cast<std::uint8_t>(code);
+    }
+
+private:
+    static constexpr int kCells = 4096;
+    std::array<float, 257> least_;
+    std::array<std::uint8_t, kCells + 1> first_;
+};
 
 /// Unpremultiplies, encodes and quantizes: what 8 and 16 bit files hold. Rounds to nearest.
 template <class T>
@@ -21,6 +57,7 @@ std::vector<T> quantize(const Layer& layer) {
     const Image& image = layer.image;
     const int channels = image.channels;
     std::vector<T> result(image.pixels.size());
+    static const EightBits eightBits;
     tbb::parallel_for(0, image.height, [&](int y) {
         const float* in = image.at(0, y);
         T* out = result.data() + (in - image.pixels.data());
@@ -29,9 +66,12 @@ std::vector<T> quantize(const Layer& layer) {
             const float alpha = hasAlpha ? in[3] : 1.0f;
             for (int c = 0; c < channels; ++c) {
                 float value = in[c];
-                if (layer.isColour && !(hasAlpha && c == 3)) value = alpha > 0 ? linearToSrgb(value / alpha) : 0.0f;
+                const bool isEncoded = layer.isColour && !(hasAlpha && c == 3);
+                if (isEncoded) value = alpha > 0 ? value / alpha : 0.0f;
                 // A NaN compares false and becomes 0; it is counted and reported elsewhere.
-                out[c] = static_cast<T>(std::lround((value > 0 ? std::min(value, 1.0f) : 0.0f) * largest));
+                value = value > 0 ? std::min(value, 1.0f) : 0.0f;
+                if (isEncoded && std::is_same_v<T, std::uint8_t>) out[c] = eightBits(value);
+                else out[c] = static_cast<T>(std::lround((isEncoded ? linearToSrgb(value) : value) * largest));
             }
         }
     });

@@ -60,21 +60,20 @@ std::vector<float> decodeDirections(const std::vector<float>& encoded) {
     return decoded;
 }
 
-/// Reads an image back, turned so that rows run from the top.
-Image readBack(const gl::Texture& texture, const Aov& aov) {
+/// Reads a rectangle of an image back, turned so that rows run from the top.
+Image readBack(const gl::Texture& texture, const Aov& aov, const PixelRect& rect) {
     const int channels = aov.channelCount();
-    Image image{texture.size().x, texture.size().y, channels, {}};
-    const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(channels);
-    image.pixels.resize(row * static_cast<std::size_t>(image.height));
-    const auto flip = [&](const auto& pixels) {
-        tbb::parallel_for(0, image.height, [&](int y) {
-            const auto from = row * static_cast<std::size_t>(image.height - 1 - y);
-            for (std::size_t i = 0; i < row; ++i) image.pixels[row * static_cast<std::size_t>(y) + i] = static_cast<float>(pixels[from + i]);
-        });
-    };
-    if (aov.isDirection) flip(decodeDirections(texture.read(2)));
-    else if (aov.isInteger()) flip(texture.readIntegers(channels));
-    else flip(texture.read(channels));
+    Image image{rect.size.x, rect.size.y, channels, {}};
+    if (aov.isDirection) {
+        image.pixels = decodeDirections(texture.read(2, rect.origin, rect.size));
+    } else if (aov.isInteger()) {
+        const auto integers = texture.readIntegers(channels, rect.origin, rect.size);
+        image.pixels.assign(integers.begin(), integers.end());
+    } else {
+        image.pixels = texture.read(channels, rect.origin, rect.size);
+    }
+    const auto row = static_cast<std::ptrdiff_t>(image.width) * channels;
+    tbb::parallel_for(0, image.height / 2, [&](int y) { std::swap_ranges(image.at(0, y), image.at(0, y) + row, image.at(0, image.height - 1 - y)); });
     return image;
 }
 
@@ -330,8 +329,9 @@ std::vector<Image> Renderer::drawTile(const Frame& frame, const PixelRect& block
     std::map<const Aov*, Image> images;
     const auto collect = [&](const FramePlan& plan) {
         for (std::size_t i = 0; i < plan.aovs.size(); ++i) {
-            Image image = readBack(executor_.texture(plan.plan, plan.wanted[i].resource), *plan.aovs[i]);
-            if (image.width != rect.size.x && options.guard == 0) image = crop(image, {glm::ivec2(plans.guard), rect.size});
+            const auto& texture = executor_.texture(plan.plan, plan.wanted[i].resource);
+            const bool isWider = texture.size().x != rect.size.x && options.guard == 0;   // by a guard band that nobody wants
+            Image image = readBack(texture, *plan.aovs[i], isWider ? PixelRect{glm::ivec2(plans.guard), rect.size} : PixelRect{glm::ivec2(0), texture.size()});
             result.nonFinite += finish(image, *plan.aovs[i], plans.averagedView.unit);
             images[plan.aovs[i]] = std::move(image);
         }
