@@ -178,6 +178,36 @@ TEST(Occlusion, depthTangentsTellConcaveFromConvex) {
     EXPECT_LT(at(1, "range = 10"), 0.8);
 }
 
+// By default: for each pair of opposite neighbours, in four rings each turned against the last, how far the pixel lies below the middle between them.
+TEST(Occlusion, depthTangentsGiveWhatTheirFormulaSaysOfValleysAndRidges) {
+    constexpr double kRange = 10, kPixel = 20.0 / 129, kReach = 7, kBleach = 0.3;
+    for (const double slope : {1.0, 0.4, -1.0}) {
+        const std::string obj = quadObj({-100, slope * 100, 100}, {0, 0, 100}, {0, 0, -100}, {-100, slope * 100, -100}) + quadObj({0, 0, 100}, {100, slope * 100, 100}, {100, slope * 100, -100}, {0, 0, -100});
+        const LoadedScene scene = makeScene("[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[camera]]\nposition = [0, 30, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, -1]\northographic_height = 20\n", {{"p.obj", obj}});
+        const Picture p = draw(makeConfig("shading = 'flat'\n[image]\nsize = [193, 129]\nsamples = 1\n[ao]\ntechnique = 'depth_tangent'\nrange = 10\n[output]\naovs = ['ambient_occlusion']\n"), scene);
+        double least = 1;
+        for (int column = 96; column < 110; ++column) {
+            glm::dvec2 turned(1, 1);
+            double sum = 0;
+            for (int ring = 4; ring > 0; --ring) {
+                for (int pair = 0; pair < 2; ++pair) {
+                    // On either side of the fold's line both neighbours rise (or fall) by the slope: together by what reaches beyond it.
+                    const double across = std::abs(std::round(turned.x * kReach * ring / 4)) * kPixel, from = (column - 96) * kPixel;
+                    const double below = std::max(slope * std::max(across - from, 0.0) / kRange, 0.0), s = 0.5 * std::max(below * (2 - below / kBleach), 0.0);
+                    sum += 1 / (1 + s * s) / 8;
+                    turned = {-turned.y, turned.x};
+                }
+                turned = {0.6157 * turned.x - 0.7880 * turned.y, 0.7880 * turned.x + 0.6157 * turned.y};
+            }
+            const double expected = std::pow(sum, 64.0);
+            // Depths of 30 are rounded by 2e-6, a 5 000 000th of the range; the power multiplies that by 64.
+            EXPECT_NEAR(*p.aov("ambient_occlusion").at(column, 64), expected, 1e-4) << "slope " << slope << ", column " << column;
+            least = std::min(least, expected);
+        }
+        EXPECT_EQ(least < 0.98, slope > 0) << "only valleys darken";
+    }
+}
+
 // Half resolution is the same picture but for detail: registered at the same points, it has no bias of its own.
 TEST(Occlusion, halfResolutionAgreesInTheMean) {
     const LoadedScene scene = makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\nfov = 60\n", {{"m.obj", mixedObj()}});

@@ -23,8 +23,9 @@ void main() {
             vec4 there = load(surfaces, tap);
             vec3 turned = decodeNormal(there.zw) - n;
             float off = offPlane(position, n, perFootprint, tap, there.y);
-            // Squared inside: bell() of both distances at once.
-            float unlike = min(off * off, 4.0) + dot(turned, turned) * params.perTurn, rest = max(1.0 - unlike, 0.0);
+            // Squared inside: bell() of all distances at once.
+            float apart = (there.x - here.x) * params.perDifference;
+            float unlike = min(off * off, 4.0) + dot(turned, turned) * params.perTurn + apart * apart, rest = max(1.0 - unlike, 0.0);
             float weight = WEIGHTS[abs(x)] * WEIGHTS[abs(y)] * rest * rest;
             sum += weight * there.x, total += weight;
         }

@@ -16,20 +16,23 @@ struct Params {
     int passes = 2;
     float step = 1;
     float angle = 25;
+    float difference = 0;
 };
 constexpr Field kParams[] = {
     field<&Params::passes>("passes", {.min = 1, .max = 5, .accuracy = true, .keyable = false, .doc = "How often 3×3 taps are taken, each time twice as far apart."}),
     field<&Params::step>("step", {.unit = "pixel footprints", .min = 0.01, .max = 1e6, .doc = "Distance from the pixel's tangent plane at which a tap no longer counts."}),
     field<&Params::angle>("angle", {.unit = "degrees", .min = 1, .max = 180, .doc = "Angle between the normals at which a tap no longer counts."}),
+    field<&Params::difference>("difference", {.min = 0, .max = 1, .doc = "Difference in ambient occlusion at which a tap no longer counts: a little more than the noise, where many rays leave but little; 0 = any counts."}),
 };
 
 struct Constants {
-    float perStep = 1, perTurn = 1;
+    float perStep = 1, perTurn = 1, perDifference = 0;
     int spacing = 1;
 };
 constexpr Field kConstants[] = {
     field<&Constants::perStep>("perStep", {.doc = "1 over the distance, in pixel footprints, at which a tap no longer counts."}),
     field<&Constants::perTurn>("perTurn", {.doc = "1 over the distance between the tips of normals at which a tap no longer counts, squared."}),
+    field<&Constants::perDifference>("perDifference", {.doc = "1 over the difference at which a tap no longer counts; 0: any counts."}),
     field<&Constants::spacing>("spacing", {.unit = "pixels", .doc = "From one tap to the next."}),
 };
 
@@ -51,7 +54,7 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.name = "plane_aware_" + std::to_string(i + 1);
         pass.reads = {{"surfaces", packed, spacing}};
         pass.writes = {{"result", result}};
-        pass.params = paramsBlock(kConstants, Constants{1 / params.step, static_cast<float>(1 / (chord * chord)), spacing});
+        pass.params = paramsBlock(kConstants, Constants{1 / params.step, static_cast<float>(1 / (chord * chord)), params.difference > 0 ? 1 / params.difference : 0, spacing});
         pass.note = "9 taps per pixel";
         graph.add(std::move(pass));
         packed = result;
