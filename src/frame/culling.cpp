@@ -37,10 +37,11 @@ struct Box {
 struct ClusterBounds {
     Box box;
     float room = 0;              // how far a vertex may be from where it is computed to be, in fine pixels
-    bool isEverywhere = false;   // it reaches behind the eye
+    float depthRoom = 0;         // the same of its depth: as a share of it, or orthographic as a difference
+    bool isEverywhere = false;   // it reaches behind the eye, or lies too near to it for floats
 };
 
-ClusterBounds boundsOf(const PlacedMesh& mesh, const Transform& pixelFromMesh, const Cluster& cluster) {
+ClusterBounds boundsOf(const CullView& view, const PlacedMesh& mesh, const Transform& pixelFromMesh, const Cluster& cluster) {
     ClusterBounds result;
     const Four centre = pixelFromMesh(cluster.centre);
     Four leastW = centre;
@@ -52,8 +53,10 @@ ClusterBounds boundsOf(const PlacedMesh& mesh, const Transform& pixelFromMesh, c
         result.box = corner == 0 ? Box{at, at} : Box{least(result.box.low, at), most(result.box.high, at)};
     }
     const glm::vec4 terms = mesh.terms * glm::vec4(glm::abs(cluster.centre) + cluster.half, 1);
-    result.isEverywhere = !(leastW[3] > 1e-4f * terms.w);
-    result.room = kGridStep + kRounding * (std::max(terms.x, terms.y) / leastW[3]) * (terms.w / leastW[3]);   // w rounds as well, and divides
+    const float ofW = terms.w / leastW[3];   // by how much of its rounding w, which all is divided by, is off
+    result.room = kGridStep + kRounding * (std::max(terms.x, terms.y) / leastW[3]) * ofW;
+    result.depthRoom = view.orthographic ? 1e-5f + kRounding * terms.z : 1e-4f + kRounding * ofW;   // besides what interpolation rounds
+    result.isEverywhere = !(leastW[3] > 1e-4f * terms.w) || !(result.room < 1e4f);
     return result;
 }
 
@@ -63,9 +66,8 @@ bool isOutside(const CullView& view, const ClusterBounds& bounds) {
 }
 
 /// Does everything that has been drawn in a box lie nearer?
-bool isHidden(const CullView& view, const Box& box, float room, const FarthestDepths& farthest) {
-    // With room for what interpolation rounds.
-    const float nearest = view.orthographic ? box.high[2] + 1e-5f : box.high[2] * (1 + 1e-4f);
+bool isHidden(const CullView& view, const Box& box, const ClusterBounds& bounds, const FarthestDepths& farthest) {
+    const float nearest = view.orthographic ? box.high[2] + bounds.depthRoom : box.high[2] * (1 + bounds.depthRoom), room = bounds.room;
     const auto squareOf = [&](float place, int axis) { return std::clamp(static_cast<int>(std::clamp(place, view.regionLow[axis], view.regionHigh[axis])) / farthest.side, 0, farthest.size[axis] - 1); };
     const int left = squareOf(box.low[0] - room, 0), right = squareOf(box.high[0] + room, 0), bottom = squareOf(box.low[1] - room, 1), top = squareOf(box.high[1] + room, 1);
     for (int y = bottom; y <= top; ++y)
@@ -76,17 +78,17 @@ bool isHidden(const CullView& view, const Box& box, float room, const FarthestDe
 
 /// May a triangle cover the middle of a pixel? Its corners, each right to `room`, and the box around it.
 bool mayCoverMiddle(const std::array<Four, 3>& at, const Box& box, float room) {
-    // Pixels' middles in the box. Truncation rounds down what is positive; all there is lies within 65536.
-    static constexpr float kFar = 65536;
-    const auto down = [](float v) { return static_cast<int>(std::clamp(v, -kFar, kFar) + kFar); };
+    // Pixels' middles in the box. Truncation rounds down what is positive; what lies farther out than 65536 may as well lie there.
+    static constexpr double kFar = 65536;
+    const auto down = [](float v) { return static_cast<int>(std::clamp(static_cast<double>(v), -kFar, kFar) + kFar); };
     const int left = down(box.low[0] - room + 0.5f), right = down(box.high[0] + room - 0.5f), bottom = down(box.low[1] - room + 0.5f), top = down(box.high[1] + room - 0.5f);
     if (left > right || bottom > top) return false;
-    if ((right - left + 1) * (top - bottom + 1) > 4) return true;   // large ones are seldom worth a closer look
+    if (right - left > 1 || top - bottom > 1) return true;   // large ones are seldom worth a closer look
     const Four a = at[1] - at[0], b = at[2] - at[0];
     const float side = a[0] * b[1] - a[1] * b[0] < 0 ? -1.0f : 1.0f;
     for (int row = bottom; row <= top; ++row)
         for (int column = left; column <= right; ++column) {
-            const Four middle{static_cast<float>(column) - kFar + 0.5f, static_cast<float>(row) - kFar + 0.5f, 0, 0};
+            const Four middle{static_cast<float>(column - kFar + 0.5), static_cast<float>(row - kFar + 0.5), 0, 0};
             bool isInside = true;
             for (std::size_t i = 0; i < 3; ++i) {
                 const Four edge = at[i == 2 ? 0 : i + 1] - at[i], to = middle - at[i];
@@ -117,7 +119,7 @@ bool chooseOf(const CullView& view, const PlacedMesh& mesh, const Transform& pix
             for (Four& p : at) p /= four(p[3]);
             const Box box{least(least(at[0], at[1]), at[2]), most(most(at[0], at[1]), at[2])};
             if (!mayCoverMiddle(at, box, bounds.room)) continue;
-            if (farthest && isHidden(view, box, bounds.room, *farthest)) continue;
+            if (farthest && isHidden(view, box, bounds, *farthest)) continue;
         }
         chosen.insert(chosen.end(), corners, corners + 3);
     }
@@ -143,7 +145,7 @@ void chooseFacing(const CullView& view, const TriangleSource& source, std::vecto
         const auto& mesh = view.instances[part.instance];
         const Transform pixelFromMesh(mesh.pixelFromMesh);
         for (std::size_t c = firsts[i]; c < std::min(firsts[i] + kClusters, mesh.clusters.size()); ++c) {
-            const ClusterBounds bounds = boundsOf(mesh, pixelFromMesh, mesh.clusters[c]);
+            const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
             if (isOutside(view, bounds)) continue;
             if (chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, nullptr, part.indices)) part.withBacks.push_back(static_cast<std::uint32_t>(c));
         }
@@ -157,8 +159,8 @@ void chooseBacks(const CullView& view, const TriangleSource& source, const Farth
         const auto& mesh = view.instances[part.instance];
         const Transform pixelFromMesh(mesh.pixelFromMesh);
         for (const auto c : part.withBacks) {
-            const ClusterBounds bounds = boundsOf(mesh, pixelFromMesh, mesh.clusters[c]);
-            if (!bounds.isEverywhere && isHidden(view, bounds.box, bounds.room, farthest)) continue;
+            const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
+            if (!bounds.isEverywhere && isHidden(view, bounds.box, bounds, farthest)) continue;
             chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, &farthest, part.indices);
         }
     });
