@@ -215,12 +215,12 @@ GpuScene::GpuScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         numbers.push_back(number);
     }
     if (words.size() > most) throw Error(ExitCode::outOfMemory, {}, fmt::format("the scene's triangles have more materials, parts and vertex colours than this GL device takes ({} numbers)", most), "use coarser meshes or another device");
-    positions_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions");
     std::size_t drawn = 0;
     for (const auto& command : commands) drawn += command.count / 3;
     if (cullable && drawn >= kManyTriangles)
         for (const auto& mesh : meshes) clusters_.push_back(makeClusters(mesh));
-    indices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles");
+    positions_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::positions)), "positions", !clusters_.empty());
+    indices_ = gl::Buffer(bytesOf(concatenate(meshes, &TriMesh::indices)), "triangles", !clusters_.empty());
     words_ = gl::Buffer(bytesOf(words), "words");
     commands_ = gl::Buffer(bytesOf(commands), "draw commands");
     instanceNumbers_ = gl::Buffer(bytesOf(numbers), "instance numbers");

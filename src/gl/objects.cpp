@@ -38,21 +38,21 @@ void releaseVertexArray(Id id) { glDeleteVertexArrays(1, &id); }
 void releaseProgram(Id id) { glDeleteProgram(id); }
 void releaseQuery(Id id) { glDeleteQueries(1, &id); }
 
-static Id makeBuffer(std::size_t size, const void* data, const std::string& name) {
+static Id makeBuffer(std::size_t size, const void* data, const std::string& name, bool mappable) {
     GLuint id = 0;
     glCreateBuffers(1, &id);
     label(GL_BUFFER, id, name);
     // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | GL_MAP_READ_BIT | GL_MAP_WRITE_BIT);
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_WRITE_BIT : GLbitfield{0}));
     return id;
 }
 
-Buffer::Buffer(std::span<const std::byte> data, const std::string& name) : handle_(makeBuffer(data.size(), data.data(), name)), size_(data.size()) {
+Buffer::Buffer(std::span<const std::byte> data, const std::string& name, bool mappable) : handle_(makeBuffer(data.size(), data.data(), name, mappable)), size_(data.size()) {
     if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
 }
 
-Buffer::Buffer(std::size_t size, const std::string& name) : handle_(makeBuffer(size, nullptr, name)), size_(size) {
+Buffer::Buffer(std::size_t size, const std::string& name) : handle_(makeBuffer(size, nullptr, name, true)), size_(size) {
     if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
 }
 

@@ -46,8 +46,9 @@ enum class Access { read, write, readWrite };
 class Buffer {
 public:
     Buffer() = default;
-    Buffer(std::span<const std::byte> data, const std::string& label);
-    Buffer(std::size_t size, const std::string& label);   ///< nothing in it yet
+    /// `mappable`: Mapping works on it; GPUs may keep such a buffer where they are slower to read it.
+    Buffer(std::span<const std::byte> data, const std::string& label, bool mappable = false);
+    Buffer(std::size_t size, const std::string& label);   ///< nothing in it yet; mappable
     void write(std::span<const std::byte> data);   ///< same size as made with
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
