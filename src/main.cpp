@@ -1,5 +1,6 @@
 // Parse, dispatch, and the only catch.
 
+#include "base/heap.h"
 #include "base/install.h"
 #include "base/log.h"
 #include "cli/commands.h"
@@ -30,6 +31,7 @@ ExitCode report(const limn::Error& error) {
 
 int main(int argc, char** argv) {
     using namespace limn;
+    keepFreedMemory();
     // A file that grows past its limit must be an error we report, not a signal that kills us.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);

@@ -1,6 +1,7 @@
 #include "frame/executor.h"
 
 #include "base/error.h"
+#include "base/heap.h"
 
 #include <fmt/format.h>
 
@@ -97,15 +98,19 @@ void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
 }
 
 void Executor::allocate(const Plan& plan) {
+    textures_.erase(textures_.lower_bound(plan.textures.size()), textures_.end());
+    std::vector<std::size_t> missing;
+    std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {
         const auto& wanted = plan.textures[i];
         auto& texture = textures_[i];
-        if (!texture || texture.format() != wanted.format || texture.size() != wanted.size) {
-            texture = {};  // gives the old one back first
-            texture = gl::Texture(wanted.format, wanted.size, fmt::format("texture {}", i));
-        }
+        if (texture && texture.format() == wanted.format && texture.size() == wanted.size) continue;
+        texture = {};  // gives the old one back before anything new is made
+        missing.push_back(i);
+        bytes += wanted.bytes();
     }
-    textures_.erase(textures_.lower_bound(plan.textures.size()), textures_.end());
+    if (device_.report().isSoftware) bringInPages(bytes);   // where images are the C heap's
+    for (const std::size_t i : missing) textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
 }
 
 const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) const {
