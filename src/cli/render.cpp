@@ -107,7 +107,8 @@ struct Job {
     RenderConfig config;
     std::filesystem::path output;
     std::vector<int> frames;
-    std::future<LoadedScene> loading;
+    LoadedScene loaded;
+    std::future<void> loading;
 };
 
 void appendStats(std::string& stats, const std::filesystem::path& file, int frame, const RenderedFrame& rendered, double writeMs, double totalMs) {
@@ -142,7 +143,7 @@ ExitCode run(const Options& options) {
     std::vector<Job> jobs;
     for (const auto& path : options.configs) {
         try {
-            Job job{readRenderConfig(path, options.overrides), {}, {}, {}};
+            Job job{readRenderConfig(path, options.overrides), {}, {}, {}, {}};
             job.output = outputPath(job.config, options.output, options.configs.size() > 1);
             for (const auto& other : jobs)
                 if (other.output.lexically_normal() == job.output.lexically_normal())
@@ -162,14 +163,28 @@ ExitCode run(const Options& options) {
         needsModule = needsModule || format == FileFormat::jpeg || format == FileFormat::tiff;
     }
     if (needsModule) preloadImageLibrary();
-    // The next scene loads while the device starts or the one before is drawn.
+    // The next scene loads while the one before is drawn. The first one loads while the device starts, and is tessellated as far as it gets.
     const auto startLoading = [&](std::size_t i) {
-        if (i < jobs.size()) jobs[i].loading = std::async(std::launch::async, [&config = jobs[i].config] { return loadScene(config); });
+        if (i < jobs.size()) jobs[i].loading = std::async(std::launch::async, [&job = jobs[i]] { job.loaded = loadScene(job.config); });
     };
-    startLoading(0);
+    std::promise<void> firstLoaded;
+    jobs.front().loading = firstLoaded.get_future();
+    auto firstMeshes = std::async(std::launch::async, [&job = jobs.front(), &firstLoaded, &options] {
+        try {
+            job.loaded = loadScene(job.config);
+        } catch (...) {
+            firstLoaded.set_exception(std::current_exception());
+            return SceneMeshes();
+        }
+        firstLoaded.set_value();
+        const auto& meshes = job.loaded.scene.meshes;
+        const bool perFrame = std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.perFrame; });
+        return perFrame ? SceneMeshes() : buildMeshes(job.config, job.loaded, framesOf(job.config, options.frames, job.loaded.scene.frames).front());
+    });
     Renderer renderer(deviceOptions, options.device.shaderFolder);
     const auto& device = renderer.device().report();
     log::debug("drawing on {} ({})", device.renderer, device.version);
+    renderer.await(std::move(firstMeshes));
     const double deviceMs = since(start);
 
     std::string stats;
@@ -182,9 +197,9 @@ ExitCode run(const Options& options) {
     };
     for (std::size_t j = 0; j < jobs.size(); ++j) {
         Job& job = jobs[j];
-        LoadedScene loaded;
+        LoadedScene& loaded = job.loaded;
         try {
-            loaded = job.loading.get();
+            job.loading.get();
         } catch (...) {
             startLoading(j + 1);
             if (!options.keepGoing) throw;
@@ -231,6 +246,8 @@ ExitCode run(const Options& options) {
                 for (const auto& error : several.list) failFrame(error);
             }
         }
+        renderer.await({});   // what nobody came for
+        loaded = {};
     }
     if (!renderer.device().debugMessages().empty())
         throw Error(ExitCode::internal, {}, fmt::format("the GL driver objects: {}", renderer.device().debugMessages().front()), "please report this");

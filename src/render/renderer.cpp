@@ -3,8 +3,6 @@
 #include "base/install.h"
 #include "base/text.h"
 #include "frame/directions.h"
-#include "render/cutting.h"
-#include "render/edge_rates.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -30,26 +28,6 @@ private:
     std::vector<PartTime>& times_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// A part of a picture, in pixels from the lower left: the block that its triangles are drawn with, and itself.
-struct Tile {
-    PixelRect block, rect;
-};
-
-ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, int frame, int guard, int keptGuard, const Tile& tile = {}) {
-    ViewRequest request;
-    request.imageSize = config.image.size;
-    request.block = tile.block, request.tile = tile.rect;
-    request.split = split;
-    request.lineSamples = config.image.lineSamples;
-    request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
-    request.dpi = config.image.dpi;
-    request.guard = guard;
-    request.keptGuard = keptGuard;
-    constexpr int kWidest = 512;   // what large pictures can afford around each block
-    request.widestGuard = std::min(static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y))), kWidest);
-    return request;
-}
 
 std::vector<float> decodeDirections(const std::vector<float>& encoded) {
     std::vector<float> decoded(encoded.size() / 2 * 3);
@@ -102,12 +80,6 @@ Image crop(const Image& image, const PixelRect& rect) {
     return part;
 }
 
-std::string planSummary(const FramePlan& frame) {
-    std::string text;
-    for (const auto& planned : frame.plan.passes) text += (text.empty() ? "" : " ") + frame.graph.passes[static_cast<std::size_t>(planned.pass)].name;
-    return text;
-}
-
 /// CPU features that llvmpipe's code depends on, and with it the last bits of its results.
 std::string cpuFeatures() {
     std::string text;
@@ -122,183 +94,33 @@ std::string cpuFeatures() {
     return text.empty() ? "baseline" : text;
 }
 
-SceneData neededData(const Plan& a, const std::optional<FramePlan>& b) { return b ? a.sceneData | b->plan.sceneData : a.sceneData; }
-
-/// Large pictures are made of blocks, each drawn with triangles of its own: below every driver's limit, and small enough for memory. They are part of
-/// what a picture is: tiles of any size give the same bits.
-int largestBlockSide(glm::ivec2 size) { return std::max(size.x, size.y) <= 4096 ? 4096 : 2048; }
-
-/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: what is drawn at half the size keeps its place.
-std::vector<std::pair<int, int>> spans(int length, int most) {
-    const int count = (length + most - 1) / most;
-    const int step = std::min((((length + count - 1) / count) + 3) / 4 * 4, std::max(most, 4));
-    std::vector<std::pair<int, int>> result;
-    for (int at = 0; at < length; at += step) result.emplace_back(at, std::min(at + step, length));
-    return result;
-}
-
-glm::ivec2 largestBlock(glm::ivec2 size) {
-    const auto first = [&](int length) { return spans(length, largestBlockSide(size)).front().second; };
-    return {first(size.x), first(size.y)};
-}
-
-/// Both plans of a frame: the averaged AOVs over all samples, and the others at the pixel's centre.
-struct FramePlans {
-    SampleSplit split;
-    int guard = 0;
-    FramePlan averaged;
-    std::optional<FramePlan> centre;
-    View averagedView, centreView;
-};
-
-FramePlans planBoth(const RenderConfig& config, const DrawScene& scene, const SceneFacts& facts, int frame, int maxTextureSize, int keptGuard, const Tile& tile = {}) {
-    FramePlans plans;
-    auto averaged = chooseAovs(config.output.aovs, true);
-    const auto centre = chooseAovs(config.output.aovs, false);
-    // Without anything to average one look at the pixel's centre is all there is to do.
-    const bool together = averaged.empty() || config.image.samples == 1;
-    const auto plan = [&] {
-        plans.averagedView = makeView(scene.camera, scene.info, viewRequest(config, plans.split, frame, plans.guard, keptGuard, tile));
-        plans.averaged = planFrame(config, facts, plans.averagedView, together ? std::span(config.output.aovs) : std::span<const Aov* const>(averaged), frame);
-    };
-    if (averaged.empty()) plans.split = {};
-    else plans.split = {1, config.image.samples};
-    // The first plan tells how wide a guard band is needed, and whether a finer raster is of use.
-    plan();
-    plans.guard = plans.averaged.plan.halo();
-    const auto makeCentre = [&] {
-        if (together || centre.empty()) return;
-        plans.centreView = makeView(scene.camera, scene.info, viewRequest(config, {}, frame, plans.guard, keptGuard, tile));
-        plans.centre = planFrame(config, facts, plans.centreView, centre, frame);
-    };
-    makeCentre();
-    if (plans.centre) plans.guard = std::max(plans.guard, plans.centre->plan.halo());
-    if (plans.averaged.usesFineRaster) plans.split = splitSamples(plans.split.samples(), largestBlock(config.image.size) + 2 * plans.guard, maxTextureSize);
-    if (plans.guard > 0 || plans.split.raster > 1) plan(), makeCentre();
-    return plans;
-}
-
-/// Bytes that a plan's images take per pixel of the region drawn; what is as large as the canvas left out.
-double bytesPerPixel(const FramePlan& frame, const View& view) {
-    double bytes = 0;
-    for (const auto& texture : frame.plan.textures)
-        if (texture.size.x <= view.region.size.x) bytes += static_cast<double>(texture.bytes());
-    return bytes / (static_cast<double>(view.region.size.x) * view.region.size.y);
-}
-
-/// Does some pass look as far as there is anything? Tiles would then differ from the whole.
-bool looksEverywhere(const FramePlan& frame) {
-    return std::any_of(frame.plan.passes.begin(), frame.plan.passes.end(), [](const auto& planned) { return planned.whole; });
-}
-
-/// How large the tiles of a picture may be. As large as memory allows, since what lies around each is drawn again and again.
-int chooseTileSize(const RenderConfig& config, const FramePlans& plans, glm::ivec2 block) {
-    const bool anySize = config.accuracy == Accuracy::exact && !looksEverywhere(plans.averaged) && !(plans.centre && looksEverywhere(*plans.centre));
-    const int whole = std::max(block.x, block.y);
-    if (!anySize) return whole;   // the hardware's interpolation is tied to the canvas
-    if (config.image.tile > 0) return std::max(config.image.tile / 4 * 4, 16);
-    constexpr double kBudget = 512.0 * 1024 * 1024;
-    const double pixels = kBudget / std::max(bytesPerPixel(plans.averaged, plans.averagedView), 16.0);
-    const glm::dvec2 around = block + 2 * plans.guard;
-    if (around.x * around.y <= pixels) return whole;
-    return std::clamp((static_cast<int>(std::sqrt(pixels)) - 2 * plans.guard) / 4 * 4, 256, std::max(whole, 256));
-}
-
 }  // namespace
-
-ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {
-    const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
-    const SceneFacts facts = sceneFacts(scene);
-    const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
-    FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0, {firstBlock, firstBlock});
-    ExplainedPlan result{std::move(plans.averaged), std::move(plans.centre), {}};
-
-    const auto& split = plans.split;
-    std::size_t faces = 0;
-    for (const auto& instance : scene.instances) faces += loaded.meshes[static_cast<std::size_t>(instance.mesh)].poly.faceCount();
-    const auto fact = [&](std::string name, std::string value) { result.facts.emplace_back(std::move(name), std::move(value)); };
-    fact("config", config.file.string());
-    fact("scene", loaded.scene.file);
-    fact("picture", fmt::format("{}×{} pixels, camera '{}'", config.image.size.x, config.image.size.y, scene.camera.name));
-    fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.samples(), split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
-    if (firstBlock.size != config.image.size) fact("blocks", fmt::format("of up to {}×{} pixels, in tiles of up to {} each way", firstBlock.size.x, firstBlock.size.y, std::min(chooseTileSize(config, plans, firstBlock.size), largestBlockSide(config.image.size))));
-    if (plans.guard > 0) fact("guard band", fmt::format("{} pixels drawn around the picture", plans.guard));
-    fact("accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)]));
-    fact("objects", fmt::format("{} instances, {} faces, {} lights", scene.instances.size(), faces, scene.lights.size()));
-    fact("diagonal", fmt::format("{} scene units at frame {}", numberText(static_cast<float>(scene.info.diagonal())), loaded.scene.firstFrame()));
-    const auto lengths = [&](const TechniqueChoice& choice) {
-        const auto params = choice.at(frame);
-        for (const auto& f : choice.technique->schema)
-            if (&f.type() == &fieldType<Length>()) {
-                const auto& length = *static_cast<const Length*>(f.member_(params.get()));
-                if (length.relative) fact(std::string(f.name), fmt::format("{}% of the diagonal = {} scene units ({} '{}')", numberText(length.amount * 100), numberText(static_cast<float>(length.inSceneUnits(scene.info.diagonal()))), choice.technique->slot, choice.technique->name));
-            }
-    };
-    for (std::size_t i = 0; i < loaded.meshes.size(); ++i) {
-        auto options = subdivisionOf(loaded.scene.meshes[i], loaded.meshes[i].poly);
-        if (!options || loaded.meshes[i].poly.faceCount() == 0) continue;
-        fact("subdivision", fmt::format("'{}': {}", loaded.scene.meshes[i].name, describe(*options, loaded.scene.meshes[i].subdivision.edgeLength, planSubdivision(loaded.meshes[i].poly, *options))));
-    }
-    if (config.ao) lengths(*config.ao);
-    for (const auto& layer : config.edges) lengths(layer);
-    if (result.centre) fact("data AOVs", fmt::format("taken at pixel centres by one more sub-frame: {}", planSummary(*result.centre)));
-    return result;
-}
 
 Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder) : device_(device), shaders_(shaderFolder), executor_(device_, shaders_) {}
 
-GpuScene& Renderer::sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times) {
+void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const FramePlans& plans, std::vector<PartTime>& times) {
+    SceneKey key = sceneKey(config, loaded, scene, plans.sceneData());
     const auto& materials = loaded.scene.materials;
     const bool changes = std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
-    const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
-    const std::string fittedTo = fitted ? fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y) : "";
-    std::vector<glm::dmat4> places;
-    if (has(needs, SceneData::rays) || !scene.sections.empty())
-        for (const auto& instance : scene.instances) places.push_back(instance.worldFromMesh);
-    if (gpuScene_ && gpuSceneNumber_ == loaded.number && gpuSceneData_ == needs && gpuSceneFittedTo_ == fittedTo && !changes && places == places_ && scene.sections == sections_) return *gpuScene_;
+    if (gpuScene_ && key == key_ && !changes) return;
     Stopwatch watch(times);
-    // Edges that are cut to look smooth to the camera need a mesh per instance; else instances share theirs.
-    struct Build { std::size_t mesh; std::optional<std::size_t> instance; };
-    std::vector<Build> builds;
-    std::vector<int> meshOf;
-    std::vector<int> shared(loaded.meshes.size(), -1);
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const auto mesh = static_cast<std::size_t>(scene.instances[i].mesh);
-        const bool own = loaded.scene.meshes[mesh].subdivision.wantedEdge().has_value();
-        if (own || shared[mesh] < 0) {
-            if (!own) shared[mesh] = static_cast<int>(builds.size());
-            meshOf.push_back(static_cast<int>(builds.size()));
-            builds.push_back({mesh, own ? std::optional(i) : std::nullopt});
-        } else {
-            meshOf.push_back(shared[mesh]);
-        }
-    }
-    const MeshNeeds meshNeeds{has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices), has(needs, SceneData::colors)};
-    std::vector<TriMesh> meshes(builds.size());
-    tbb::parallel_for(std::size_t{0}, builds.size(), [&](std::size_t i) {
-        const PolyMesh& poly = loaded.meshes[builds[i].mesh].poly;
-        auto subdivision = subdivisionOf(loaded.scene.meshes[builds[i].mesh], poly);
-        if (!subdivision) return void(meshes[i] = buildTriMesh(poly, meshNeeds));
-        if (builds[i].instance) subdivision->edgeRate = edgeRates(loaded, *builds[i].instance, config);
-        meshes[i] = subdivide(poly, *subdivision, meshNeeds, loaded.scene.meshes[builds[i].mesh].file);
-    });
-    watch.lap("of which triangles");
-    if (!scene.sections.empty()) {
-        cutOpen(loaded, scene, meshNeeds, meshes, meshOf);
-        watch.lap("of which cutting");
-    }
+    // Triangles are made while the programs load.
+    auto coming = awaited_.valid() ? std::move(awaited_) : std::async(std::launch::async, [&] { return buildMeshes(config, loaded, scene, key); });
+    executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
+    watch.lap("of which programs");
+    SceneMeshes made = coming.get();
+    if (made.key != key) made = buildMeshes(config, loaded, scene, key);
+    watch.lap("of which triangles, beyond the programs");
+    times.push_back({"triangles, begun beside what is above", made.milliseconds});
     gpuScene_ = nullptr;   // gives the old one's memory back first
-    gpuScene_ = std::make_unique<GpuScene>(scene, meshes, meshOf, needs, device_.limits(), device_.report().isSoftware);
+    gpuScene_ = std::make_unique<GpuScene>(scene, made.meshes, made.meshOf, key.needs, device_.limits(), device_.report().isSoftware);
     watch.lap("of which upload");
     rayScene_ = nullptr;
-    if (has(needs, SceneData::rays)) {
-        rayScene_ = std::make_unique<RayScene>(scene, meshes, meshOf);
+    if (has(key.needs, SceneData::rays)) {
+        rayScene_ = std::make_unique<RayScene>(scene, made.meshes, made.meshOf);
         watch.lap("of which ray tracing tree");
     }
-    places_ = std::move(places);
-    sections_ = scene.sections;
-    gpuSceneNumber_ = loaded.number, gpuSceneData_ = needs, gpuSceneFittedTo_ = fittedTo;
-    return *gpuScene_;
+    key_ = std::move(key);
 }
 
 /// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that is to be kept).
@@ -359,7 +181,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
         throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x, layout.size.y, largest), "lower shadow.resolution");
     watch.lap("plan");
-    sceneOnGpu(config, loaded, scene, neededData(plans.averaged.plan, plans.centre), result.times);
+    bringScene(config, loaded, scene, plans, result.times);
     watch.lap("scene to the GPU");
 
     result.opaque = !config.image.transparent;

@@ -4,9 +4,11 @@
 #include "frame/executor.h"
 #include "render/loader.h"
 #include "reference/ray_scene.h"
-#include "render/pipeline.h"
+#include "render/frame_plans.h"
+#include "render/scene_meshes.h"
 
 #include <functional>
+#include <future>
 #include <memory>
 
 namespace limn {
@@ -42,20 +44,13 @@ struct PassTime {
     double milliseconds;
 };
 
-/// A plan and the pictures it would make: what `limn plan` shows.
-struct ExplainedPlan {
-    FramePlan frame;                        ///< of the averaged AOVs, or of everything with one sample
-    std::optional<FramePlan> centre;        ///< of the AOVs taken at the pixel's centre, when there are several samples
-    PlanFacts facts;
-};
-
-/// Plans a frame without GL. `maxTextureSize` is the driver's, which may change how samples are split.
-ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize = 16384);
-
 /// The device, the programs and the scenes on it, kept from frame to frame.
 class Renderer {
 public:
     explicit Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder = {});
+
+    /// Meshes of the next frame that are under way: it takes them instead of making its own, if they are what it needs.
+    void await(std::future<SceneMeshes> meshes) { awaited_ = std::move(meshes); }
 
     RenderedFrame render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
 
@@ -66,9 +61,8 @@ public:
     const gl::Device& device() const { return device_; }
 
 private:
-    /// The scene on the GPU: kept while frames differ only in what setView brings (cameras, transforms, lights). Where rays are traced, moved
-    /// instances need a new tree as well.
-    GpuScene& sceneOnGpu(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs, std::vector<PartTime>& times);
+    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings (cameras, transforms, lights).
+    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const FramePlans& plans, std::vector<PartTime>& times);
 
     /// What all tiles of a frame share.
     struct Frame {
@@ -85,11 +79,8 @@ private:
     std::vector<PassTime> passTimes_;
     std::unique_ptr<GpuScene> gpuScene_;
     std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays
-    std::vector<glm::dmat4> places_;         ///< where instances stand, for rayScene_ and sections
-    std::vector<SectionPlane> sections_;     ///< that cut what is in gpuScene_
-    std::uint64_t gpuSceneNumber_ = 0;      ///< LoadedScene::number of gpuScene_
-    SceneData gpuSceneData_ = SceneData::none;
-    std::string gpuSceneFittedTo_;           ///< camera and picture that edges were cut for; empty when none were
+    SceneKey key_;                           ///< of gpuScene_ and rayScene_
+    std::future<SceneMeshes> awaited_;
 };
 
 }  // namespace limn
