@@ -1,7 +1,5 @@
 #include "frame/culling.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -128,42 +126,32 @@ bool chooseOf(const CullView& view, const PlacedMesh& mesh, const Transform& pix
 
 }  // namespace
 
-void chooseFacing(const CullView& view, const TriangleSource& source, std::vector<ChosenTriangles>& chosen) {
-    constexpr std::size_t kClusters = 256;   // of one instance, to a part
-    std::vector<std::size_t> firsts;
-    std::size_t parts = 0;
+std::vector<SeenPart> partsOf(const CullView& view) {
+    constexpr std::size_t kClusters = 64;   // some thousand triangles to a part
+    std::vector<SeenPart> parts;
     for (std::size_t i = 0; i < view.instances.size(); ++i)
-        for (std::size_t first = 0; first < view.instances[i].clusters.size(); first += kClusters, ++parts) {
-            if (chosen.size() <= parts) chosen.emplace_back();
-            chosen[parts].instance = i;
-            firsts.push_back(first);
-        }
-    chosen.resize(parts);
-    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
-        auto& part = chosen[i];
-        part.indices.clear(), part.withBacks.clear();
-        const auto& mesh = view.instances[part.instance];
-        const Transform pixelFromMesh(mesh.pixelFromMesh);
-        for (std::size_t c = firsts[i]; c < std::min(firsts[i] + kClusters, mesh.clusters.size()); ++c) {
-            const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
-            if (isOutside(view, bounds)) continue;
-            if (chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, nullptr, part.indices)) part.withBacks.push_back(static_cast<std::uint32_t>(c));
-        }
-    });
+        for (std::size_t first = 0; first < view.instances[i].clusters.size(); first += kClusters) parts.push_back({i, first, std::min(kClusters, view.instances[i].clusters.size() - first), {}, {}});
+    return parts;
 }
 
-void chooseBacks(const CullView& view, const TriangleSource& source, const FarthestDepths& farthest, std::vector<ChosenTriangles>& chosen) {
-    tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
-        auto& part = chosen[i];
-        part.indices.clear();
-        const auto& mesh = view.instances[part.instance];
-        const Transform pixelFromMesh(mesh.pixelFromMesh);
-        for (const auto c : part.withBacks) {
-            const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
-            if (!bounds.isEverywhere && isHidden(view, bounds.box, bounds, farthest)) continue;
-            chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, &farthest, part.indices);
-        }
-    });
+void chooseFacing(const CullView& view, const TriangleSource& source, SeenPart& part) {
+    const auto& mesh = view.instances[part.instance];
+    const Transform pixelFromMesh(mesh.pixelFromMesh);
+    for (std::size_t c = part.firstCluster; c < part.firstCluster + part.clusterCount; ++c) {
+        const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
+        if (isOutside(view, bounds)) continue;
+        if (chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, nullptr, part.indices)) part.withBacks.push_back(static_cast<std::uint32_t>(c));
+    }
+}
+
+void chooseBacks(const CullView& view, const TriangleSource& source, const FarthestDepths& farthest, SeenPart& part) {
+    const auto& mesh = view.instances[part.instance];
+    const Transform pixelFromMesh(mesh.pixelFromMesh);
+    for (const auto c : part.withBacks) {
+        const ClusterBounds bounds = boundsOf(view, mesh, pixelFromMesh, mesh.clusters[c]);
+        if (!bounds.isEverywhere && isHidden(view, bounds.box, bounds, farthest)) continue;
+        chooseOf(view, mesh, pixelFromMesh, mesh.clusters[c], bounds, source, &farthest, part.indices);
+    }
 }
 
 }  // namespace limn

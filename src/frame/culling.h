@@ -43,17 +43,21 @@ struct FarthestDepths {
     std::vector<float> values;
 };
 
-/// What is drawn of a part of an instance.
-struct ChosenTriangles {
+/// Some of an instance's clusters, and which of their triangles are drawn.
+struct SeenPart {
     std::size_t instance = 0;
+    std::size_t firstCluster = 0, clusterCount = 0;
     std::vector<std::uint32_t> indices;         ///< corners of triangles
     std::vector<std::uint32_t> withBacks;       ///< clusters of which some triangle does not face the camera
 };
 
-/// The triangles that may be seen of those that face the camera: parts of instances, in order. Parallel. `chosen` gives its memory back to use.
-void chooseFacing(const CullView& view, const TriangleSource& source, std::vector<ChosenTriangles>& chosen);
+/// All instances in order, cut into parts that can be looked at side by side; nothing is chosen yet.
+std::vector<SeenPart> partsOf(const CullView& view);
+
+/// Appends the triangles that may be seen of those that face the camera.
+void chooseFacing(const CullView& view, const TriangleSource& source, SeenPart& part);
 
 /// After that: those that turn their backs to the camera. Where meshes are closed they are few, once what faces the camera is drawn.
-void chooseBacks(const CullView& view, const TriangleSource& source, const FarthestDepths& farthest, std::vector<ChosenTriangles>& chosen);
+void chooseBacks(const CullView& view, const TriangleSource& source, const FarthestDepths& farthest, SeenPart& part);
 
 }  // namespace limn

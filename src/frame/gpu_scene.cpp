@@ -2,6 +2,7 @@
 
 #include "base/color.h"
 #include "base/error.h"
+#include "base/in_order.h"
 #include "base/text.h"
 #include "frame/texture.h"
 
@@ -422,32 +423,38 @@ void GpuScene::draw() const {
 }
 
 void GpuScene::drawSeen(const FarthestDepths* farthest) {
-    {
-        const gl::Mapping positions(positions_, gl::Access::read), indices(indices_, gl::Access::read);
-        const TriangleSource source{reinterpret_cast<const glm::vec3*>(positions.bytes()), reinterpret_cast<const std::uint32_t*>(indices.bytes())};
-        if (farthest) chooseBacks(cullView_, source, *farthest, chosen_);
-        else chooseFacing(cullView_, source, chosen_);
-    }
+    const gl::Mapping positions(positions_), indices(indices_);
+    const TriangleSource source{reinterpret_cast<const glm::vec3*>(positions.bytes()), reinterpret_cast<const std::uint32_t*>(indices.bytes())};
+    if (!farthest) parts_ = partsOf(cullView_);
+    // Some at a time, so that the renderer's threads draw them while this one sets up the next and others choose those after that.
+    constexpr std::size_t kCorners = 3 * 20'000;
+    std::vector<std::uint32_t> corners;
     std::vector<gl::DrawCommand> commands;
-    std::size_t count = 0;
-    for (const auto& part : chosen_) {
-        if (!part.indices.empty()) commands.push_back({static_cast<std::uint32_t>(part.indices.size()), 1, static_cast<std::uint32_t>(count), static_cast<std::int32_t>(places_[static_cast<std::size_t>(meshOf_[part.instance])].firstVertex), static_cast<std::uint32_t>(part.instance)});
-        count += part.indices.size();
-    }
-    if (count == 0) return;
-    if (const std::size_t bytes = count * sizeof(std::uint32_t); chosenIndices_.size() < bytes) {
-        chosenArray_ = {}, chosenIndices_ = {};
-        chosenIndices_ = gl::Buffer(bytes + bytes / 4, "chosen triangles");
-        chosenArray_ = gl::VertexArray(inputs_, chosenIndices_, "chosen triangles");
-    }
-    {
-        const gl::Mapping mapping(chosenIndices_, gl::Access::write);
-        auto* to = reinterpret_cast<std::uint32_t*>(mapping.bytes());
-        for (const auto& part : chosen_) to = std::copy(part.indices.begin(), part.indices.end(), to);
-    }
-    const gl::Buffer buffer(bytesOf(commands), "draw commands");
-    chosenArray_.bind();
-    gl::drawElements(buffer, static_cast<int>(commands.size()));
+    const auto drawThem = [&] {
+        if (corners.empty()) return;
+        const gl::Buffer elements(bytesOf(corners), "seen triangles"), calls(bytesOf(commands), "draw commands");
+        const gl::VertexArray array(inputs_, elements, "seen triangles");
+        array.bind();
+        gl::drawElements(calls, static_cast<int>(commands.size()));
+        gl::flush();
+        corners.clear(), commands.clear();
+    };
+    inOrder(
+        parts_.size(),
+        [&](std::size_t i) {
+            if (farthest) chooseBacks(cullView_, source, *farthest, parts_[i]);
+            else chooseFacing(cullView_, source, parts_[i]);
+        },
+        [&](std::size_t i) {
+            auto& part = parts_[i];
+            if (part.indices.empty()) return;
+            const auto first = static_cast<std::int32_t>(places_[static_cast<std::size_t>(meshOf_[part.instance])].firstVertex);
+            commands.push_back({static_cast<std::uint32_t>(part.indices.size()), 1, static_cast<std::uint32_t>(corners.size()), first, static_cast<std::uint32_t>(part.instance)});
+            corners.insert(corners.end(), part.indices.begin(), part.indices.end());
+            part.indices = {};
+            if (corners.size() >= kCorners) drawThem();
+        });
+    drawThem();
 }
 
 }  // namespace limn

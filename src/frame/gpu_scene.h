@@ -88,10 +88,8 @@ private:
 
     std::vector<std::vector<Cluster>> clusters_;   ///< of each mesh
     CullView cullView_;
-    std::vector<ChosenTriangles> chosen_;
+    std::vector<SeenPart> parts_;
     std::vector<gl::VertexInput> inputs_;
-    gl::Buffer chosenIndices_;
-    gl::VertexArray chosenArray_;
 };
 
 }  // namespace limn

@@ -44,7 +44,7 @@ static Id makeBuffer(std::size_t size, const void* data, const std::string& name
     label(GL_BUFFER, id, name);
     // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_WRITE_BIT : GLbitfield{0}));
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT : GLbitfield{0}));
     return id;
 }
 
@@ -52,11 +52,7 @@ Buffer::Buffer(std::span<const std::byte> data, const std::string& name, bool ma
     if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
 }
 
-Buffer::Buffer(std::size_t size, const std::string& name) : handle_(makeBuffer(size, nullptr, name, true)), size_(size) {
-    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
-}
-
-Mapping::Mapping(const Buffer& buffer, Access access) : buffer_(buffer.id()), bytes_(static_cast<std::byte*>(glMapNamedBufferRange(buffer_, 0, static_cast<GLsizeiptr>(buffer.size()), access == Access::read ? GL_MAP_READ_BIT : access == Access::write ? GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT : GL_MAP_READ_BIT | GL_MAP_WRITE_BIT))) {
+Mapping::Mapping(const Buffer& buffer) : buffer_(buffer.id()), bytes_(static_cast<const std::byte*>(glMapNamedBufferRange(buffer_, 0, static_cast<GLsizeiptr>(buffer.size()), GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT))) {
     if (!bytes_) throw Error(ExitCode::internal, {}, "GL gives no access to a buffer's memory", "please report this");
 }
 Mapping::~Mapping() { glUnmapNamedBuffer(buffer_); }
@@ -283,6 +279,7 @@ void setDepthTest(DepthTest test) {
     glDepthFunc(GL_GREATER);
 }
 void barrier() { glMemoryBarrier(GL_ALL_BARRIER_BITS); }
+void flush() { glFlush(); }
 void finish() { glFinish(); }
 
 }  // namespace limn::gl

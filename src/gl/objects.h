@@ -48,7 +48,6 @@ public:
     Buffer() = default;
     /// `mappable`: Mapping works on it; GPUs may keep such a buffer where they are slower to read it.
     Buffer(std::span<const std::byte> data, const std::string& label, bool mappable = false);
-    Buffer(std::size_t size, const std::string& label);   ///< nothing in it yet; mappable
     void write(std::span<const std::byte> data);   ///< same size as made with
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
@@ -60,18 +59,18 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A buffer's bytes in memory while this lives. To write them is to write all of them anew. Throws Error (internal) where that cannot be.
+/// The bytes of a mappable buffer, to read, while this lives; drawing may read them at the same time. Throws Error (internal) where that cannot be.
 class Mapping {
 public:
-    Mapping(const Buffer& buffer, Access access);
+    explicit Mapping(const Buffer& buffer);
     ~Mapping();
     Mapping(const Mapping&) = delete;
     Mapping& operator=(const Mapping&) = delete;
-    std::byte* bytes() const { return bytes_; }
+    const std::byte* bytes() const { return bytes_; }
 
 private:
     Id buffer_;
-    std::byte* bytes_;
+    const std::byte* bytes_;
 };
 
 /// What one fetch from a buffer brings.
@@ -217,6 +216,7 @@ void setDepthTest(DepthTest test);
 /// Is what is drawn into a framebuffer's colour image added to what stands there, or does it replace it?
 void setAdding(int colour, bool adds);
 void barrier();
+void flush();     ///< lets the device begin with what it has been given
 void finish();
 
 }  // namespace limn::gl

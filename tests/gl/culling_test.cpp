@@ -93,13 +93,13 @@ TEST(Culling, leavesOutWhatTurnsAwayAndWhatIsHidden) {
     placed.eye = {0, 0, 1};
     view.instances = {placed};
     const TriangleSource source{mesh.positions.data(), mesh.indices.data()};
-    const auto count = [](const std::vector<ChosenTriangles>& chosen) {
+    const auto count = [](const std::vector<SeenPart>& chosen) {
         std::size_t corners = 0;
         for (const auto& part : chosen) corners += part.indices.size();
         return corners / 3;
     };
-    std::vector<ChosenTriangles> chosen;
-    chooseFacing(view, source, chosen);
+    std::vector<SeenPart> chosen = partsOf(view);
+    for (auto& part : chosen) chooseFacing(view, source, part);
     const std::size_t facing = count(chosen);
     EXPECT_LE(facing, mesh.triangleCount() / 2 + 2 * kRings) << "a half faces the camera";
     EXPECT_GT(facing, mesh.triangleCount() / 8);
@@ -108,17 +108,18 @@ TEST(Culling, leavesOutWhatTurnsAwayAndWhatIsHidden) {
             const glm::vec3 middle = (mesh.positions[part.indices[i]] + mesh.positions[part.indices[i + 1]] + mesh.positions[part.indices[i + 2]]) / 3.0f;
             EXPECT_GT(middle.z, -0.05f);
         }
+    for (auto& part : chosen) part.indices.clear();
     const auto first = chosen;
 
     FarthestDepths depths;
     depths.size = {25, 25};
     depths.values.assign(625, 0.0f);
-    chooseBacks(view, source, depths, chosen);
+    for (auto& part : chosen) chooseBacks(view, source, depths, part);
     const std::size_t backs = count(chosen);
     EXPECT_GT(backs, mesh.triangleCount() / 8) << "nothing has been drawn that could hide them";
     chosen = first;
     depths.values.assign(625, 0.5f);   // a wall through the sphere's middle
-    chooseBacks(view, source, depths, chosen);
+    for (auto& part : chosen) chooseBacks(view, source, depths, part);
     EXPECT_LT(count(chosen), backs / 8) << "only what touches the wall";
 }
 
