@@ -73,6 +73,8 @@ void EffectBuilder::add(Pass pass) {
     pass.slot = slot_;
     pass.technique = technique_;
     if (pass.shader.empty()) pass.shader = fmt::format("effects/{}/{}", slot_, technique_);
+    if (pass.rate == Pass::Rate::sample) pass.rate = rate_;
+    if (view_.split.samples() == 1) pass.rate = Pass::Rate::sample;   // all the same, and nothing need last
     graph_.passes.push_back(std::move(pass));
 }
 

@@ -73,7 +73,8 @@ public:
     /// Lets the pass's shaders see the holes that materials cut (CUTOUTS), where there are any.
     void cutHoles(Pass& pass) const;
 
-    void beginTechnique(std::string slot, std::string technique) { slot_ = std::move(slot), technique_ = std::move(technique); }
+    /// `rate`: of its passes that do not say.
+    void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) { slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate; }
     /// A unique suffix for layered slots ("edges" twice), or "".
     void setLayer(int layer) { layer_ = layer; }
     std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }
@@ -86,6 +87,7 @@ private:
     std::optional<ResourceId> shadowMaps_;
     std::vector<const TechniqueChoice*> choices_;
     std::string slot_, technique_;
+    Pass::Rate rate_ = Pass::Rate::sample;
     int layer_ = 0;
     bool usesFineRaster_ = false;
 };

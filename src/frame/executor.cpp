@@ -41,12 +41,13 @@ std::string readable(const Graph& graph, const Pass& pass, bool asImages) {
 
 }  // namespace
 
-const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view, int samples) {
+const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+    const int samples = view.samplesAt(pass.rate);   // that a mean is made of
     const bool screen = pass.kind == Pass::Kind::compute && drawsScreen();
     const bool compute = pass.kind == Pass::Kind::compute && !screen;
     std::vector<gl::ShaderStage> stages;
-    std::string head = prelude(graph, planned, view), outputs, names;
+    std::string head = prelude(graph, planned, block), outputs, names;
     int slot = 0;
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
@@ -94,7 +95,7 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
 void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
     const UniformBlock block = viewBlock(view);
     for (const auto& planned : plan.passes)
-        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, block, view.split.samples());
+        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, view, block);
 }
 
 void Executor::allocate(const Plan& plan) {
@@ -123,6 +124,7 @@ static bool isDue(const Pass& pass, const View& view) {
         case Pass::Rate::frame: return view.sample == 0;
         case Pass::Rate::subFrame: return view.sample % view.split.perSubFrame() == 0;
         case Pass::Rate::line: return view.findsLines();
+        case Pass::Rate::occlusion: return view.findsOcclusion();
         case Pass::Rate::sample: break;
     }
     return true;
@@ -156,7 +158,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuSc
             stamp();
             continue;
         }
-        const gl::Program& linked = program(graph, planned, block, view.split.samples());
+        const gl::Program& linked = program(graph, planned, view, block);
         linked.use();
         viewBuffer.bindUniform(0);
         std::optional<gl::Buffer> params;
@@ -332,7 +334,7 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
-        drawSeen(view, scene, pass.rate == Pass::Rate::sample ? 1 : view.split.raster, framebuffer, linked, depth);
+        drawSeen(view, scene, pass.rate == Pass::Rate::subFrame ? view.split.raster : 1, framebuffer, linked, depth);
     }
     for (const auto& drawing : pass.drawings) {
         gl::setViewport({drawing.viewport.x, drawing.viewport.y}, {drawing.viewport.z, drawing.viewport.w});

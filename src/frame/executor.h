@@ -22,7 +22,7 @@ class Executor {
 public:
     Executor(const gl::Device& device, const ShaderLibrary& shaders) : device_(device), shaders_(shaders) {}
 
-    /// Compiles every program that the plan needs, so that drawing times are drawing alone.
+    /// Compiles every program that the plan needs.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
     /// Draws one sample of a frame; the first one of a frame or sub-frame also what its samples share. Samples must come in order. With
@@ -40,7 +40,7 @@ public:
     void resetMeasurements() { milliseconds_.clear(), transferMilliseconds_ = 0; }
 
 private:
-    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const UniformBlock& view, int samples);
+    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);

@@ -44,7 +44,7 @@ struct View {
     PixelRect region;               ///< what effects draw: the canvas, or a tile of it and a guard band
     SampleSplit split;
     int sample = 0;                 ///< of split.samples()
-    int lineSamples = 1;            ///< in how many of them lines are found; at most all
+    int aoSamples = 1, lineSamples = 1;   ///< in how many of them ambient occlusion, or lines, are found; at most all
     unsigned seed = 0;
 
     bool orthographic = false;
@@ -74,7 +74,13 @@ struct View {
         return {(place + row) % split.raster, row};
     }
     /// Are lines found anew in this sample? They lie where the edges are, whichever sample sees them, so that a part of the samples is enough.
-    bool findsLines() const { return sample == 0 || sample * lineSamples / split.samples() != (sample - 1) * lineSamples / split.samples(); }
+    bool findsLines() const { return isOneOf(lineSamples); }
+    /// And ambient occlusion? It is smooth, and filtered to be smoother.
+    bool findsOcclusion() const { return isOneOf(aoSamples); }
+    /// How many samples of a frame run the passes of a rate other than subFrame and frame.
+    int samplesAt(Pass::Rate rate) const { return rate == Pass::Rate::occlusion ? aoSamples : rate == Pass::Rate::line ? lineSamples : split.samples(); }
+    /// Does the sample belong to so many that are spread evenly over all of them?
+    bool isOneOf(int some) const { return sample == 0 || sample * some / split.samples() != (sample - 1) * some / split.samples(); }
     /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
@@ -95,6 +101,7 @@ struct ViewRequest {
     int guard = 0, keptGuard = 0, widestGuard = 0;   ///< see View
     SampleSplit split;
     int sample = 0;
+    int aoSamples = 0;              ///< 0: a half of them, but at least four
     int lineSamples = 0;            ///< 0: a quarter of them, but at least four
     unsigned seed = 0;
     double dpi = 96;

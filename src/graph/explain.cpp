@@ -117,6 +117,7 @@ private:
             case Pass::Rate::frame: return "once per frame";
             case Pass::Rate::subFrame: return "once per sub-frame";
             case Pass::Rate::line: return "samples that find lines";
+            case Pass::Rate::occlusion: return "samples that find occlusion";
             case Pass::Rate::sample: break;
         }
         return "every sample";

@@ -84,8 +84,9 @@ inline constexpr int kMaskTile = 4;
 struct Pass {
     /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending them on.
     enum class Kind { compute, raster, host };
-    /// How often it runs. What a pass makes that does not run for every sample is kept until it runs again.
-    enum class Rate { sample, line, subFrame, frame };   // line: for samples in which lines are found
+    /// How often it runs: for every sample; for those in which ambient occlusion, or lines, are found; for the first of each sub-frame or frame. What a
+    /// pass makes is kept until it runs again, where something reads it that runs in between.
+    enum class Rate { sample, occlusion, line, subFrame, frame };
 
     std::string name;
     std::string slot, technique;

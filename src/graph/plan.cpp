@@ -98,19 +98,20 @@ private:
     void layOutTextures() {
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
-        // What is made more seldom than it is read must last from one run to the next.
+        // What is read by what runs when it is not made anew must last from one run to the next.
+        const auto makesFor = [](Pass::Rate writer, Pass::Rate reader) { return writer == reader || writer == Pass::Rate::sample; };
         std::vector<Pass::Rate> rateOf(graph_.resources.size(), Pass::Rate::sample);
         std::vector<bool> mustLast(graph_.resources.size(), false);
         for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
             const Pass& pass = graph_.passes[static_cast<std::size_t>(plan_.passes[i].pass)];
             for (const auto& read : pass.reads) {
                 lastUse[index(read.resource)] = static_cast<int>(i);
-                mustLast[index(read.resource)] = mustLast[index(read.resource)] || pass.rate != rateOf[index(read.resource)];
+                mustLast[index(read.resource)] = mustLast[index(read.resource)] || !makesFor(rateOf[index(read.resource)], pass.rate);
             }
             for (const auto& write : pass.writes) rateOf[index(write.resource)] = pass.rate;
             for (const auto& write : pass.writes) lastUse[index(write.resource)] = std::max(lastUse[index(write.resource)], static_cast<int>(i));
         }
-        for (const auto& want : wanted_) lastUse[index(want.resource)] = kForever, mustLast[index(want.resource)] = true;
+        for (const auto& want : wanted_) lastUse[index(want.resource)] = kForever, mustLast[index(want.resource)] = rateOf[index(want.resource)] != Pass::Rate::sample;
 
         plan_.textureOf.assign(graph_.resources.size(), -1);
         std::vector<int> busyUntil;
@@ -120,7 +121,7 @@ private:
                 if (!plan_.passes[i].writes[w]) continue;
                 const std::size_t r = index(pass.writes[w].resource);
                 const Resource& resource = graph_.resources[r];
-                const bool persistent = resource.persistent || (pass.rate != Pass::Rate::sample && mustLast[r]);
+                const bool persistent = resource.persistent || mustLast[r];
                 std::size_t slot = 0;
                 for (; slot < plan_.textures.size(); ++slot) {
                     const auto& texture = plan_.textures[slot];

@@ -30,6 +30,7 @@ constexpr Field kHeader[] = {
 constexpr Field kImage[] = {
     field<&ImageSettings::size>("size", {.unit = "pixels", .min = 1, .max = 65536, .keyable = false, .doc = "Width and height of the picture."}),
     field<&ImageSettings::samples>("samples", {.min = 1, .max = 4096, .accuracy = true, .keyable = false, .doc = "Samples per pixel: antialiasing, and less noise."}),
+    field<&ImageSettings::aoSamples>("ao_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false, .doc = "In how many of these samples ambient occlusion is found; 0: in a half, but at least four. It is smooth: more make it less noisy, but hardly sharper."}),
     field<&ImageSettings::lineSamples>("line_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false, .doc = "In how many of these samples lines are found; 0: in a quarter, but at least four. Lines have smooth borders from one sample on: more are for folds and gaps as narrow as a pixel."}),
     field<&ImageSettings::guard>("guard", {.unit = "longer sides", .min = 0, .max = 1, .accuracy = true, .keyable = false, .doc = "How wide a band around the picture may be drawn for effects that look around themselves; made only as wide as they need, and at most 512 pixels."}),
     field<&ImageSettings::tile>("tile", {.unit = "pixels", .min = 0, .max = 65536, .keyable = false, .doc = "Draw the picture in tiles of at most this size each way; 0: as large as memory allows. The picture is the same to the bit."}),

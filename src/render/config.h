@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 2> enumNames<Accuracy> = {"exact",
 struct ImageSettings {
     glm::ivec2 size{1280, 720};
     int samples = 8;
-    int lineSamples = 0;
+    int aoSamples = 0, lineSamples = 0;
     unsigned seed = 0;
     bool seedIsFrame = false;
     Color background{1, 1, 1};

@@ -14,6 +14,7 @@ ViewRequest viewRequest(const RenderConfig& config, const SampleSplit& split, in
     request.imageSize = config.image.size;
     request.block = tile.block, request.tile = tile.rect;
     request.split = split;
+    request.aoSamples = config.image.aoSamples;
     request.lineSamples = config.image.lineSamples;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.dpi = config.image.dpi;

@@ -7,8 +7,8 @@
 namespace limn {
 namespace {
 
-void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) {
-    builder.beginTechnique(std::string(choice.technique->slot), std::string(choice.technique->name));
+void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame, Pass::Rate rate = Pass::Rate::sample) {
+    builder.beginTechnique(std::string(choice.technique->slot), std::string(choice.technique->name), rate);
     choice.technique->build(builder, choice.at(frame).get(), *choice.technique);
 }
 
@@ -16,25 +16,28 @@ void build(EffectBuilder& builder, const TechniqueChoice& choice, double frame) 
 ResourceId accumulate(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
     const ResourceId image = builder.read(aov);
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
-    const std::string note = fmt::format("mean of {} samples", view.split.samples());
+    const auto note = [&](Pass::Rate rate) { return fmt::format("mean of {} samples", view.samplesAt(rate)); };
     const auto reads = [&](const Pass& pass) { return std::any_of(pass.reads.begin(), pass.reads.end(), [&](const Read& read) { return read.resource == image; }); };
-    if (std::none_of(graph.passes.begin(), graph.passes.end(), reads))
-        for (Pass& pass : graph.passes)
-            for (Write& write : pass.writes) {
-                if (write.resource != image || pass.kind != Pass::Kind::compute || pass.rate != Pass::Rate::sample || pass.mask >= 0) continue;
-                Resource& made = graph.resources[static_cast<std::size_t>(image.index)];
-                write.mean = true, made.persistent = true, made.format = format;
-                pass.note += (pass.note.empty() ? "" : ", ") + note;
-                return image;
-            }
+    const bool isRead = std::any_of(graph.passes.begin(), graph.passes.end(), reads);
+    Pass::Rate rate = Pass::Rate::sample;
+    for (Pass& pass : graph.passes)
+        for (Write& write : pass.writes) {
+            if (write.resource != image) continue;
+            rate = pass.rate;
+            if (isRead || pass.kind != Pass::Kind::compute || pass.mask >= 0) continue;
+            Resource& made = graph.resources[static_cast<std::size_t>(image.index)];
+            write.mean = true, made.persistent = true, made.format = format;
+            pass.note += (pass.note.empty() ? "" : ", ") + note(pass.rate);
+            return image;
+        }
     const ResourceId mean = graph.add({fmt::format("{}_mean", aov.name), format, view.region.size, true});
     Pass pass;
     pass.name = fmt::format("accumulate_{}", aov.name);
     pass.shader = "frame/accumulate";
     pass.reads = {{"source", image}};
     pass.writes = {{"mean", mean, SceneData::none, glm::vec4(0), true}};
-    pass.note = note;
-    builder.beginTechnique("samples", "accumulate");
+    pass.note = note(rate);
+    builder.beginTechnique("samples", "accumulate", rate);
     builder.add(std::move(pass));
     return mean;
 }
@@ -68,11 +71,13 @@ static FramePlan planOf(const RenderConfig& config, const SceneFacts& facts, con
     for (const auto& layer : config.edges) choices.push_back(&layer);
     builder.setChoices(std::move(choices));
     build(builder, config.geometry, frame);
-    if (config.ao) build(builder, *config.ao, frame);
+    // Depth tangents are lines as well, and sharp.
+    const auto occlusionRate = config.ao && config.ao->technique->name == "depth_tangent" ? Pass::Rate::sample : Pass::Rate::occlusion;
+    if (config.ao) build(builder, *config.ao, frame, occlusionRate);
     else result.graph.absent.emplace_back("ao");
     if (config.ao && !config.aoFilters.empty() && !builder.find(aov::ambientOcclusion))
         throw Error(ExitCode::usage, {config.file.string()}, "the filter of [ao] has nothing to filter: ambient occlusion and lines are one image", "leave the filter out, or use another technique in one of both sections");
-    for (const auto& filter : config.aoFilters) build(builder, filter, frame);
+    for (const auto& filter : config.aoFilters) build(builder, filter, frame, occlusionRate);
     if (config.ao && config.aoFilters.empty()) result.graph.absent.emplace_back("filter");
     build(builder, config.shading, frame);
     for (std::size_t layer = 0; layer < config.edges.size(); ++layer) {
