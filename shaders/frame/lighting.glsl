@@ -9,13 +9,15 @@
 
 struct Lighting { vec3 diffuse, highlight; };
 
-// Diffuse light max(0, N·L) and Blinn-Phong highlights max(0, N·H)^shininess, times each light's colour, range, cone and shadow. `attenuation`:
+// Diffuse light max(0, N·L) and, with HIGHLIGHTS, Blinn-Phong highlights max(0, N·H)^shininess, times each light's colour, range, cone and shadow.
+// PLACED_LIGHTS: some light is a point or spot; SPOTS: some is a spot. `attenuation`:
 // linear and quadratic factors of 1/(1 + l·d + q·d²) for lights with a place, d in scene units. `eye`: unit, towards the viewer.
 Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shininess, vec2 attenuation) {
     Lighting sum = Lighting(vec3(0), vec3(0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 towards = lights[i].direction.xyz;
         float strength = 1.0;
+#ifdef PLACED_LIGHTS
         if (lights[i].direction.w > 0.0) {   // point or spot
             vec3 path = lights[i].position.xyz - position;
             float range = length(path);
@@ -23,14 +25,18 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
             float halves = range * lights[i].position.w, d = range / view.unit;
             strength = 1.0 / (1.0 + halves * halves);
             strength /= 1.0 + attenuation.x * d + attenuation.y * d * d;
+#ifdef SPOTS
             if (lights[i].direction.w == 2.0) strength *= smoothstep(lights[i].cone.x, lights[i].cone.y, dot(along, towards));
+#endif
             towards = along;
         }
+#endif
         float facing = dot(n, towards);
 #ifdef WITH_SHADOWS
         if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(load(normalGeometric, pixel).xy), towards);
 #endif
         sum.diffuse += lights[i].color.rgb * (strength * max(facing, 0.0));
+#ifdef HIGHLIGHTS
         if (shininess > 1.0 && facing > 0.0) {
             // Opposite directions leave no half vector; there is no highlight then either.
             vec3 between = towards + eye;
@@ -38,8 +44,19 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
             float cosine = size > 1e-6 ? max(dot(n, between) / size, 0.0) : 0.0;
             sum.highlight += lights[i].color.rgb * (strength * pow(cosine, shininess));
         }
+#endif
     }
     return sum;
+}
+
+// Exponent (x) and strength (y) of the highlights of what a pixel shows.
+vec2 highlightsOf(ivec2 pixel) {
+#ifdef SHINY_MATERIALS
+    Material material = materialAt(load(materialId, pixel).r - 1u);
+    return vec2(material.shininess, material.specular);
+#else
+    return vec2(0);
+#endif
 }
 
 // How open the pixel is, 1 where nothing computes it.

@@ -30,6 +30,7 @@ struct SceneFacts {
     bool textured = false;         ///< some drawn material has a texture
     bool cutouts = false;          ///< some drawn material has holes
     bool vertexColors = false;     ///< some drawn mesh has vertex colours, and a material that wants them
+    bool shiny = false;            ///< some drawn material has a highlight
     bool coloredLight = false;     ///< some light is not grey
     bool lineRecords = false;      ///< some object or material says something about its lines
     bool sections = false;         ///< something is cut open

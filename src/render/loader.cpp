@@ -307,6 +307,7 @@ SceneFacts sceneFacts(const DrawScene& scene) {
             const Material& material = scene.materials[number];
             facts.textured = facts.textured || !material.texture.empty();
             facts.cutouts = facts.cutouts || !material.cutout.empty();
+            facts.shiny = facts.shiny || (material.shininess > 1 && material.specular > 0);
             facts.vertexColors = facts.vertexColors || (instance.hasColors && material.vertexColors);
         }
     for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;

@@ -13,10 +13,10 @@ void main() {
         return;
     }
     vec3 position = viewPosition(pixel, z);
-    Material material = materialAt(load(materialId, pixel).r - 1u);
+    vec2 highlights = highlightsOf(pixel);
     vec3 eye = params.trueViewDirection ? towardsEye(position) : vec3(0, 0, 1);
-    Lighting lit = lightingAt(pixel, position, decodeNormal(load(normal, pixel).xy), eye, material.shininess, vec2(0));
-    vec3 light = (lit.diffuse + params.ambient) * openness(pixel, params.aoStrength) + params.extraAmbient + lit.highlight * (material.specular * params.specular);
+    Lighting lit = lightingAt(pixel, position, decodeNormal(load(normal, pixel).xy), eye, highlights.x, vec2(0));
+    vec3 light = (lit.diffuse + params.ambient) * openness(pixel, params.aoStrength) + params.extraAmbient + lit.highlight * (highlights.y * params.specular);
 #ifdef COLORED_LIGHT
     float intensity = max(light.r, max(light.g, light.b));
     write_result(vec4(intensity > 0.0 ? light / intensity : vec3(1), intensity));

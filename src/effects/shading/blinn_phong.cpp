@@ -26,7 +26,9 @@ constexpr Field kParams[] = {
     field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
 };
 
-void build(EffectBuilder& graph, const Params& params) { addLitShading(graph, "blinn_phong", paramsBlock(kParams, params), params.aoStrength); }
+void build(EffectBuilder& graph, const Params& params) {
+    addLitShading(graph, "blinn_phong", paramsBlock(kParams, params), params.aoStrength, params.specular <= 0 ? Highlights::none : params.exponent == 0 ? Highlights::ofMaterials : Highlights::alike);
+}
 
 const Technique kBlinnPhong{"shading", "blinn_phong", "Ambient, diffuse and specular light that weakens with distance (Lawonn's lecture).", kParams, build,
                             {{"paper", "As taught: ambient 0.3, exponent 8, attenuation for lights 50 units away.", "ambient = 0.3, exponent = 8, linear = 0.09, quadratic = 0.032"}}};

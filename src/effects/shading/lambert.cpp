@@ -20,7 +20,7 @@ constexpr Field kParams[] = {
     field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
 };
 
-void build(EffectBuilder& graph, const Params& params) { addLitShading(graph, "lambert", paramsBlock(kParams, params), params.aoStrength); }
+void build(EffectBuilder& graph, const Params& params) { addLitShading(graph, "lambert", paramsBlock(kParams, params), params.aoStrength, Highlights::none); }
 
 const Technique kLambert{"shading", "lambert", "Lambert's cosine law, with ambient light dimmed by ambient occlusion (Schmitt).", kParams, build};
 

@@ -100,7 +100,7 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "toon_light";
     pass.shader = "effects/shading/toon_light";
-    readLighting(graph, pass, params.aoStrength);
+    readLighting(graph, pass, params.aoStrength, params.specular > 0 ? Highlights::ofMaterials : Highlights::none);
     if (colored) pass.defines.emplace_back("COLORED_LIGHT", "");
     pass.writes = {{"result", light}};
     pass.params = paramsBlock(kLightConstants, LightConstants{params.ambient, params.extraAmbient, params.specular, params.aoStrength, params.trueViewDirection});
