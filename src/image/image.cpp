@@ -2,6 +2,7 @@
 
 #include "base/color.h"
 #include "base/error.h"
+#include "base/in_order.h"
 #include "image/codecs.h"
 
 #include <fmt/format.h>
@@ -52,36 +53,59 @@ private:
 
 /// Unpremultiplies, encodes and quantizes: what 8 and 16 bit files hold. Rounds to nearest.
 template <class T>
-std::vector<T> quantize(const Layer& layer) {
+void quantizeRow(const Layer& layer, int y, T* out) {
     constexpr float largest = static_cast<float>(std::numeric_limits<T>::max());
     const Image& image = layer.image;
     const int channels = image.channels;
-    std::vector<T> result(image.pixels.size());
     static const EightBits eightBits;
-    tbb::parallel_for(0, image.height, [&](int y) {
-        const float* in = image.at(0, y);
-        T* out = result.data() + (in - image.pixels.data());
-        for (int x = 0; x < image.width; ++x, in += channels, out += channels) {
-            const bool hasAlpha = channels == 4;
-            const float alpha = hasAlpha ? in[3] : 1.0f;
-            for (int c = 0; c < channels; ++c) {
-                float value = in[c];
-                const bool isEncoded = layer.isColour && !(hasAlpha && c == 3);
-                if (isEncoded) value = alpha > 0 ? value / alpha : 0.0f;
-                // A NaN compares false and becomes 0; it is counted and reported elsewhere.
-                value = value > 0 ? std::min(value, 1.0f) : 0.0f;
-                if (isEncoded && std::is_same_v<T, std::uint8_t>) out[c] = eightBits(value);
-                else out[c] = static_cast<T>(std::lround((isEncoded ? linearToSrgb(value) : value) * largest));
-            }
+    const float* in = image.at(0, y);
+    for (int x = 0; x < image.width; ++x, in += channels, out += channels) {
+        const bool hasAlpha = channels == 4;
+        const float alpha = hasAlpha ? in[3] : 1.0f;
+        for (int c = 0; c < channels; ++c) {
+            float value = in[c];
+            const bool isEncoded = layer.isColour && !(hasAlpha && c == 3);
+            if (isEncoded) value = alpha > 0 ? value / alpha : 0.0f;
+            // A NaN compares false and becomes 0; it is counted and reported elsewhere.
+            value = value > 0 ? std::min(value, 1.0f) : 0.0f;
+            if (isEncoded && std::is_same_v<T, std::uint8_t>) out[c] = eightBits(value);
+            else out[c] = static_cast<T>(std::lround((isEncoded ? linearToSrgb(value) : value) * largest));
         }
-    });
+    }
+}
+
+template <class T>
+std::vector<T> quantize(const Layer& layer) {
+    std::vector<T> result(layer.image.pixels.size());
+    tbb::parallel_for(0, layer.image.height, [&](int y) { quantizeRow(layer, y, result.data() + (layer.image.at(0, y) - layer.image.pixels.data())); });
     return result;
+}
+
+template <class T>
+void quantizeRows(const Layer& layer, const std::function<void(const T*)>& take) {
+    constexpr int kRows = 8;   // at a time
+    const Image& image = layer.image;
+    const std::size_t length = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    std::vector<std::vector<T>> parts(static_cast<std::size_t>((image.height + kRows - 1) / kRows));
+    const auto rowsOf = [&](std::size_t i) { return std::min(kRows, image.height - static_cast<int>(i) * kRows); };
+    inOrder(
+        parts.size(),
+        [&](std::size_t i) {
+            parts[i].resize(length * static_cast<std::size_t>(rowsOf(i)));
+            for (int row = 0; row < rowsOf(i); ++row) quantizeRow(layer, static_cast<int>(i) * kRows + row, parts[i].data() + length * static_cast<std::size_t>(row));
+        },
+        [&](std::size_t i) {
+            for (int row = 0; row < rowsOf(i); ++row) take(parts[i].data() + length * static_cast<std::size_t>(row));
+            parts[i] = {};
+        });
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> quantize8(const Layer& layer) { return quantize<std::uint8_t>(layer); }
 std::vector<std::uint16_t> quantize16(const Layer& layer) { return quantize<std::uint16_t>(layer); }
+void quantizeRows8(const Layer& layer, const std::function<void(const std::uint8_t*)>& take) { quantizeRows(layer, take); }
+void quantizeRows16(const Layer& layer, const std::function<void(const std::uint16_t*)>& take) { quantizeRows(layer, take); }
 
 std::optional<FileFormat> fileFormat(const std::filesystem::path& path) {
     std::string extension = path.extension().string();

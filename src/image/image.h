@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -72,5 +73,8 @@ void preloadImageLibrary();
 /// "in the format, encoded or quantized": 8 or 16 bit integers of a layer, display-encoded if it is a colour.
 std::vector<std::uint8_t> quantize8(const Layer& layer);
 std::vector<std::uint16_t> quantize16(const Layer& layer);
+/// The same row by row, from the top; rows are made while those before them are taken.
+void quantizeRows8(const Layer& layer, const std::function<void(const std::uint8_t*)>& take);
+void quantizeRows16(const Layer& layer, const std::function<void(const std::uint16_t*)>& take);
 
 }  // namespace limn

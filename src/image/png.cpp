@@ -54,14 +54,12 @@ public:
     void add(std::span<const Layer> band) override {
         const Image& image = band.front().image;
         const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-        const auto write = [&](const auto& pixels) {
-            for (int y = 0; y < image.height; ++y) {
-                const int status = spng_encode_row(context_.get(), pixels.data() + row * static_cast<std::size_t>(y), row * sizeof(pixels[0]));
-                if (++rows_ < height_ || status != SPNG_EOI) check(status);
-            }
+        const auto write = [&](const auto* pixels) {
+            const int status = spng_encode_row(context_.get(), pixels, row * sizeof(*pixels));
+            if (++rows_ < height_ || status != SPNG_EOI) check(status);
         };
-        if (bits_ == 16) write(quantize16(band.front()));
-        else write(quantize8(band.front()));
+        if (bits_ == 16) quantizeRows16(band.front(), write);
+        else quantizeRows8(band.front(), write);
     }
 
     std::vector<std::byte> finish() override {

@@ -28,8 +28,9 @@ void FrameWriter::add(const RenderedFrame& band) {
         Layer picture;
         if (isMain && band.opaque) {
             picture = {layer.name, {"R", "G", "B"}, layer.isColour, layer.isInteger, {layer.image.width, layer.image.height, 3, {}}};
-            picture.image.pixels.reserve(layer.image.pixels.size() / 4 * 3);
-            for (std::size_t p = 0; p < layer.image.pixels.size(); p += 4) picture.image.pixels.insert(picture.image.pixels.end(), {layer.image.pixels[p], layer.image.pixels[p + 1], layer.image.pixels[p + 2]});
+            const auto count = layer.image.pixels.size() / 4;
+            picture.image.pixels.resize(3 * count);
+            for (std::size_t p = 0; p < count; ++p) std::copy_n(layer.image.pixels.data() + 4 * p, 3, picture.image.pixels.data() + 3 * p);
         }
         const std::span<const Layer> written(isMain && band.opaque ? &picture : &layer, 1);
         if (files_.size() == i) {

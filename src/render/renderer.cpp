@@ -73,6 +73,7 @@ std::uint64_t finish(Image& image, const Aov& aov, double unit) {
 
 Image crop(const Image& image, const PixelRect& rect) {
     Image part{rect.size.x, rect.size.y, image.channels, {}};
+    part.pixels.reserve(static_cast<std::size_t>(rect.size.x) * static_cast<std::size_t>(rect.size.y) * static_cast<std::size_t>(image.channels));
     for (int y = 0; y < rect.size.y; ++y) {
         const float* row = image.at(rect.origin.x, rect.origin.y + y);
         part.pixels.insert(part.pixels.end(), row, row + rect.size.x * image.channels);
