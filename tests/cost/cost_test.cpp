@@ -147,6 +147,24 @@ TEST(Cost, attributesThatNobodyReadsAreNotUploaded) {
     EXPECT_EQ(depth.counts.draws + depth.counts.dispatches, 2) << "visibility and resolve, once";
 }
 
+TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {
+    const LoadedScene dull = makeScene(kScene, {{"m.obj", mixedObj()}});
+    const LoadedScene shiny = makeScene(kScene + "[[material]]\nname = 'shiny'\nshininess = 20\n[[instance]]\nmesh = 'm'\nmaterial = 'shiny'\n", {{"m.obj", mixedObj()}});
+    const auto readsMaterials = [](const LoadedScene& scene, const std::string& config) {
+        const ExplainedPlan plan = planConfig(makeConfig(kBase + config), scene, 1);
+        for (const auto& planned : plan.frame.plan.passes)
+            for (const auto& read : plan.frame.graph.passes[static_cast<std::size_t>(planned.pass)].reads)
+                if (read.name == "materialId") return true;
+        return false;
+    };
+    for (const std::string shading : {"'toon'", "'blinn_phong'\nexponent = 0"}) {
+        const std::string config = "[shading]\ntechnique = " + shading + "\n";
+        EXPECT_FALSE(readsMaterials(dull, config)) << shading;
+        EXPECT_TRUE(readsMaterials(shiny, config)) << shading;
+        EXPECT_FALSE(readsMaterials(shiny, config + "specular = 0\n")) << shading;
+    }
+}
+
 TEST(Cost, planOfTheBarePictureNamesNoEffect) {
     const LoadedScene loaded = makeScene(kScene, {{"m.obj", mixedObj()}});
     const ExplainedPlan plan = planConfig(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n"), loaded, 1);

@@ -220,5 +220,27 @@ TEST(Occlusion, halfResolutionAgreesInTheMean) {
     for (const char* technique : {"hbao", "gtao", "visibility_bitmask", "hemisphere"}) EXPECT_NEAR(mean(technique, "half"), mean(technique, "full"), 0.006) << technique;
 }
 
+/// Distance of two pictures: root of the mean square over all channels.
+double distance(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += (a.pixels[i] - b.pixels[i]) * (a.pixels[i] - b.pixels[i]);
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+// The error of a mean of half as many independent values is sqrt(2) times as large; that of a picture, in which outlines err as well, no more than that.
+TEST(Occlusion, ofAPartOfTheSamplesIsNoisierAndNothingElse) {
+    const LoadedScene scene = makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n" + cameraToml({3, 4, 6}, {0, 0.5, -1}, "fov = 45") + "[[light]]\ndirection = [-1, -2, -1]\n", {{"m.obj", mixedObj()}});
+    const auto shot = [&](int samples, int ao) {
+        return draw(makeConfig(fmt::format("[image]\nsize = [192, 128]\nsamples = {}\nao_samples = {}\n[shading]\ntechnique = 'lambert'\nambient = 0.6\n[ao]\ntechnique = 'toon_ssao'\nradius = '20%'\nfilter = {{ technique = 'gaussian' }}\n[output]\naovs = ['beauty', 'ambient_occlusion']\n", samples, ao)), scene);
+    };
+    const Picture truth = shot(256, 256), all = shot(8, 8), half = shot(8, 4), one = shot(8, 1), automatic = shot(8, 0);
+    const auto error = [&](const Picture& picture, const char* aov) { return distance(picture.aov(aov), truth.aov(aov)); };
+    EXPECT_EQ(automatic.aov("beauty").pixels, half.aov("beauty").pixels) << "a half, but at least four";
+    EXPECT_EQ(shot(4, 0).aov("beauty").pixels, shot(4, 4).aov("beauty").pixels);
+    EXPECT_LE(error(half, "ambient_occlusion"), 1.42 * error(all, "ambient_occlusion"));
+    EXPECT_GE(error(one, "ambient_occlusion"), 1.5 * error(half, "ambient_occlusion")) << "this test sees noise";
+    EXPECT_LE(error(half, "beauty"), 1.42 * error(all, "beauty"));
+}
+
 }  // namespace
 }  // namespace limn::test

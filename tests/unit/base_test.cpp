@@ -1,11 +1,15 @@
 #include "base/color.h"
+#include "base/in_order.h"
 #include "base/params.h"
 #include "base/text.h"
 #include "config/document.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <thread>
 
 namespace limn {
 enum class Fruit { apple, pear };
@@ -134,6 +138,27 @@ TEST(Text, nearestName) {
     EXPECT_EQ(nearestName("raduis", names), "radius");
     EXPECT_EQ(nearestName("direction", names), "directions");
     EXPECT_EQ(nearestName("colour", names), std::nullopt);
+}
+
+TEST(InOrder, takesEverythingInOrderAndHandsOnWhatIsThrown) {
+    constexpr std::size_t kCount = 2000;
+    std::vector<std::size_t> made(kCount), taken;
+    const auto caller = std::this_thread::get_id();
+    inOrder(
+        kCount, [&](std::size_t i) { made[i] = i * i; },
+        [&](std::size_t i) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            EXPECT_EQ(made[i], i * i) << "made before it is taken";
+            taken.push_back(i);
+        });
+    ASSERT_EQ(taken.size(), kCount);
+    EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
+    inOrder(0, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); });
+
+    std::size_t before = 0;
+    EXPECT_THROW(inOrder(kCount, [](std::size_t i) { if (i == 700) throw std::runtime_error("make"); }, [&](std::size_t) { ++before; }), std::runtime_error);
+    EXPECT_EQ(before, 700u);
+    EXPECT_THROW(inOrder(kCount, [](std::size_t) {}, [](std::size_t i) { if (i == 700) throw std::runtime_error("take"); }), std::runtime_error);
 }
 
 TEST(Color, srgbRoundTrip) {
