@@ -34,15 +34,17 @@ struct Viewer {
         const double nearest = std::max({std::min(-p.z, -q.z), (glm::length(middle) - length / 2) * corner, 0.05 * length});
         return length * pixelsPerUnit / nearest;
     }
+    /// The most pixels that a unit of a mesh within a sphere can span.
+    double pixelsPerUnitOf(const glm::dvec3& centre, double radius) const {
+        const double stretch = std::max({glm::length(viewFromMesh[0]), glm::length(viewFromMesh[1]), glm::length(viewFromMesh[2])});
+        const double distance = glm::length(glm::dvec3(viewFromMesh * glm::dvec4(centre, 1))) - radius * stretch;
+        return stretch * pixelsPerUnit / (orthographic ? 1 : std::max(distance, 0.05 * radius * stretch));
+    }
     bool operator==(const Viewer&) const = default;
 };
 
-}  // namespace
-
-std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::size_t number, const RenderConfig& config) {
-    const auto wanted = loaded.scene.meshes[meshIndex(loaded.scene, loaded.scene.instances[number].base.mesh)].subdivision.wantedEdge();
-    if (!wanted) return {};
-    auto viewers = std::make_shared<std::vector<Viewer>>();
+/// Appends how the cameras of all declared frames see an instance, without repeating what is there.
+void addViewers(const LoadedScene& loaded, std::size_t number, const RenderConfig& config, std::vector<Viewer>& viewers) {
     const FrameRange frames = loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
@@ -53,8 +55,31 @@ std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedS
         toView[3] = glm::dvec4(view.toView(glm::dvec3(instance.worldFromMesh[3])), 1);
         const glm::dmat3 linear(instance.worldFromMesh);
         const Viewer viewer{toView, std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}), view.orthographic, 1 / view.rayScale.x, view.rayOffset, size * view.rayScale + view.rayOffset};
-        if (std::find(viewers->begin(), viewers->end(), viewer) == viewers->end()) viewers->push_back(viewer);
+        if (std::find(viewers.begin(), viewers.end(), viewer) == viewers.end()) viewers.push_back(viewer);
     }
+}
+
+}  // namespace
+
+int edgeClass(const LoadedScene& loaded, std::size_t instance, const RenderConfig& config) {
+    const std::size_t mesh = meshIndex(loaded.scene, loaded.scene.instances[instance].base.mesh);
+    const auto wanted = loaded.scene.meshes[mesh].subdivision.wantedEdge();
+    Bounds bounds;
+    for (const auto& p : loaded.meshes[mesh].poly.positions) bounds.add(p);
+    if (!wanted || bounds.empty()) return 0;
+    std::vector<Viewer> viewers;
+    addViewers(loaded, instance, config, viewers);
+    double size = 0;
+    for (const auto& viewer : viewers) size = std::max(size, wanted->isPixels ? viewer.pixelsPerUnitOf(bounds.centre(), bounds.diagonal() / 2) : viewer.worldScale);
+    constexpr int kClasses = 2;   // to a factor of two
+    return static_cast<int>(std::floor(kClasses * std::log2(std::clamp(size, 1e-300, 1e300))));
+}
+
+std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::span<const std::size_t> instances, const RenderConfig& config) {
+    const auto wanted = loaded.scene.meshes[meshIndex(loaded.scene, loaded.scene.instances[instances.front()].base.mesh)].subdivision.wantedEdge();
+    if (!wanted) return {};
+    auto viewers = std::make_shared<std::vector<Viewer>>();
+    for (const std::size_t instance : instances) addViewers(loaded, instance, config, *viewers);
     return [viewers, wanted = *wanted](const glm::dvec3& a, const glm::dvec3& b) {
         double segments = 1;
         for (const auto& viewer : *viewers) segments = std::max(segments, (wanted.isPixels ? viewer.pixels(a, b) : glm::distance(a, b) * viewer.worldScale) / wanted.amount);

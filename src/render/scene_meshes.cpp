@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <utility>
 
 namespace limn {
 
@@ -24,20 +26,18 @@ SceneKey sceneKey(const RenderConfig& config, const LoadedScene& loaded, const D
 SceneMeshes buildMeshes(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneKey key) {
     const auto begin = std::chrono::steady_clock::now();
     SceneMeshes result;
-    // Edges that are cut to look smooth to the camera need a mesh per instance; else instances share theirs.
-    struct Build { std::size_t mesh; std::optional<std::size_t> instance; };
+    // Instances share meshes. Where edges are cut to look smooth to the camera only those that look about equally large to it do.
+    struct Build { std::size_t mesh; std::vector<std::size_t> instances; };
     std::vector<Build> builds;
-    std::vector<int> shared(loaded.meshes.size(), -1);
+    std::vector<int> classes(scene.instances.size());
+    tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) { classes[i] = edgeClass(loaded, i, config); });
+    std::map<std::pair<std::size_t, int>, std::size_t> known;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(scene.instances[i].mesh);
-        const bool own = loaded.scene.meshes[mesh].subdivision.wantedEdge().has_value();
-        if (own || shared[mesh] < 0) {
-            if (!own) shared[mesh] = static_cast<int>(builds.size());
-            result.meshOf.push_back(static_cast<int>(builds.size()));
-            builds.push_back({mesh, own ? std::optional(i) : std::nullopt});
-        } else {
-            result.meshOf.push_back(shared[mesh]);
-        }
+        const auto [at, isNew] = known.try_emplace({mesh, classes[i]}, builds.size());
+        if (isNew) builds.push_back({mesh, {}});
+        builds[at->second].instances.push_back(i);
+        result.meshOf.push_back(static_cast<int>(at->second));
     }
     const MeshNeeds needs{has(key.needs, SceneData::normals), has(key.needs, SceneData::uvs), has(key.needs, SceneData::unifiedVertices), has(key.needs, SceneData::colors)};
     result.meshes.resize(builds.size());
@@ -45,7 +45,7 @@ SceneMeshes buildMeshes(const RenderConfig& config, const LoadedScene& loaded, c
         const PolyMesh& poly = loaded.meshes[builds[i].mesh].poly;
         auto subdivision = subdivisionOf(loaded.scene.meshes[builds[i].mesh], poly);
         if (!subdivision) return void(result.meshes[i] = buildTriMesh(poly, needs));
-        if (builds[i].instance) subdivision->edgeRate = edgeRates(loaded, *builds[i].instance, config);
+        subdivision->edgeRate = edgeRates(loaded, builds[i].instances, config);
         result.meshes[i] = subdivide(poly, *subdivision, needs, loaded.scene.meshes[builds[i].mesh].file);
     });
     if (!scene.sections.empty()) cutOpen(loaded, scene, needs, result.meshes, result.meshOf);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace limn::test {
@@ -34,6 +35,24 @@ TEST(Cracks, aClosedSubdivisionSurfaceFarFromTheOriginShowsNoBackground) {
         }
     EXPECT_EQ(holes, 0u);
     EXPECT_GT(covered, 10000000u) << "pixels that were looked at";
+}
+
+// Two spheres side by side look equally large and share a mesh; one three times as far away has its own, of about a ninth of the triangles. Nothing is
+// as coarse as the far one where it is near: edges span two pixels at most, of limit surfaces that are smaller than their cages.
+TEST(EdgeLength, instancesOfOneSizeShareAMesh) {
+    const LoadedScene scene = makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\nsubdivision = { edge_length = '2px', level = 8 }\n[[instance]]\nmesh = 'm'\ntranslate = [-2, 0, 0]\n[[instance]]\nmesh = 'm'\ntranslate = [0, 0, -40]\n[[instance]]\nmesh = 'm'\ntranslate = [2, 0, 0]\n[[camera]]\nposition = [0, 0, 20]\nlook_at = [0, 0, 0]\nfov = 30\n", {{"m.obj", boxObj({-1, -1, -1}, {1, 1, 1})}});
+    const RenderConfig config = makeConfig("[image]\nsize = [640, 480]\nsamples = 1\n");
+    const SceneMeshes made = buildMeshes(config, scene, 1);
+    ASSERT_EQ(made.meshes.size(), 2u);
+    EXPECT_EQ(made.meshOf, (std::vector<int>{0, 1, 0}));
+    const auto triangles = [&](std::size_t i) { return static_cast<double>(made.meshes[i].triangleCount()); };
+    EXPECT_NEAR(triangles(0) / triangles(1), 9, 3);
+    // Of the near spheres, 20 units away.
+    const double pixelsPerUnit = 640 / (2 * std::tan(glm::radians(15.0))) / 19;
+    double longest = 0;
+    for (std::size_t i = 0; i < made.meshes[0].indices.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, static_cast<double>(glm::distance(made.meshes[0].positions[made.meshes[0].indices[i + k]], made.meshes[0].positions[made.meshes[0].indices[i + (k + 1) % 3]])));
+    EXPECT_LE(longest * pixelsPerUnit, 2 * std::sqrt(2.0)) << "a square's diagonal";
 }
 
 }  // namespace
