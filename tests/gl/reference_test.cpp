@@ -162,7 +162,7 @@ TEST(Reference, agreesWithCycles) {
     for (const Shot& shot : shots) {
         const std::string folder = std::string(data) + "/ao_scenes/";
         const LoadedScene scene = makeScene(fmt::format("[[mesh]]\nname = 'm'\nfile = '{}{}.obj'\n[[camera]]\nposition = {}\nlook_at = {}\nfov = {}\n", folder, shot.scene, toml(shot.position), toml(shot.target), fov), {});
-        const Picture p = draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [640, 360]\nsamples = 16\n[ao]\ntechnique = 'ray_traced'\nradius = {}\nrays = 32\n[output]\naovs = ['ambient_occlusion_raw', 'depth']\n", shot.radius)), scene);
+        const Picture p = draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [640, 360]\nsamples = 16\nao_samples = 16\n[ao]\ntechnique = 'ray_traced'\nradius = {}\nrays = 32\n[output]\naovs = ['ambient_occlusion_raw', 'depth']\n", shot.radius)), scene);
         const Image theirs = readImage(fmt::format("{}{}_{}.cycles512.png", folder, shot.scene, shot.camera));
         ASSERT_EQ(theirs.width, 640);
         // The file holds linear numbers, the reader takes every PNG for sRGB.
