@@ -334,6 +334,7 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
+        // Passes of a frame's only sample have no rate of their own, and no raster either.
         drawSeen(view, scene, pass.rate == Pass::Rate::subFrame ? view.split.raster : 1, framebuffer, linked, depth);
     }
     for (const auto& drawing : pass.drawings) {

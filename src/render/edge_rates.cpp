@@ -64,15 +64,16 @@ void addViewers(const LoadedScene& loaded, std::size_t number, const RenderConfi
 int edgeClass(const LoadedScene& loaded, std::size_t instance, const RenderConfig& config) {
     const std::size_t mesh = meshIndex(loaded.scene, loaded.scene.instances[instance].base.mesh);
     const auto wanted = loaded.scene.meshes[mesh].subdivision.wantedEdge();
+    if (!wanted) return 0;
     Bounds bounds;
     for (const auto& p : loaded.meshes[mesh].poly.positions) bounds.add(p);
-    if (!wanted || bounds.empty()) return 0;
+    if (bounds.empty()) return 0;
     std::vector<Viewer> viewers;
     addViewers(loaded, instance, config, viewers);
     double size = 0;
     for (const auto& viewer : viewers) size = std::max(size, wanted->isPixels ? viewer.pixelsPerUnitOf(bounds.centre(), bounds.diagonal() / 2) : viewer.worldScale);
-    constexpr int kClasses = 2;   // to a factor of two
-    return static_cast<int>(std::floor(kClasses * std::log2(std::clamp(size, 1e-300, 1e300))));
+    constexpr int kClassesPerOctave = 2;
+    return static_cast<int>(std::floor(kClassesPerOctave * std::log2(std::clamp(size, 1e-300, 1e300))));
 }
 
 std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::span<const std::size_t> instances, const RenderConfig& config) {

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Instances of one mesh that are of one class look so much alike in size, within half an octave, that they may share one mesh: what that has too many
+/// Instances of one mesh that are of one class look so much alike in size, within a factor of sqrt(2), that they may share one mesh: what that has too many
 /// triangles for some of them costs less than making and keeping a mesh for each.
 int edgeClass(const LoadedScene& loaded, std::size_t instance, const RenderConfig& config);
 
