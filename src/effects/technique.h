@@ -76,6 +76,8 @@ public:
 
     /// `rate`: of its passes that do not say.
     void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) { slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate; }
+    /// For techniques of slots that do with a part of the samples, if they are sharp.
+    void useEverySample() { rate_ = Pass::Rate::sample; }
     /// A unique suffix for layered slots ("edges" twice), or "".
     void setLayer(int layer) { layer_ = layer; }
     std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }

@@ -71,13 +71,11 @@ static FramePlan planOf(const RenderConfig& config, const SceneFacts& facts, con
     for (const auto& layer : config.edges) choices.push_back(&layer);
     builder.setChoices(std::move(choices));
     build(builder, config.geometry, frame);
-    // Depth tangents are lines as well, and sharp.
-    const auto occlusionRate = config.ao && config.ao->technique->name == "depth_tangent" ? Pass::Rate::sample : Pass::Rate::occlusion;
-    if (config.ao) build(builder, *config.ao, frame, occlusionRate);
+    if (config.ao) build(builder, *config.ao, frame, Pass::Rate::occlusion);
     else result.graph.absent.emplace_back("ao");
     if (config.ao && !config.aoFilters.empty() && !builder.find(aov::ambientOcclusion))
         throw Error(ExitCode::usage, {config.file.string()}, "the filter of [ao] has nothing to filter: ambient occlusion and lines are one image", "leave the filter out, or use another technique in one of both sections");
-    for (const auto& filter : config.aoFilters) build(builder, filter, frame, occlusionRate);
+    for (const auto& filter : config.aoFilters) build(builder, filter, frame, Pass::Rate::occlusion);
     if (config.ao && config.aoFilters.empty()) result.graph.absent.emplace_back("filter");
     build(builder, config.shading, frame);
     for (std::size_t layer = 0; layer < config.edges.size(); ++layer) {

@@ -160,6 +160,7 @@ ResourceId addPass(EffectBuilder& graph, const Params& params, const std::string
 }
 
 void build(EffectBuilder& graph, const Params& params) {
+    graph.useEverySample();   // its occlusion is drawn with as sharp a pen as lines
     if (const auto* lines = graph.chosen("edges", "depth_tangent")) {
         // One image that is both. What the lines' section says of it would have to agree.
         const LineParams defaults;
