@@ -25,6 +25,6 @@ for target in "${targets[@]}"; do
     echo "fuzzing $target for $seconds s"
     # The log is kept: a pipe would hide the exit code.
     build/fuzz/fuzz_"$target" -max_total_time="$seconds" -max_len=20000 -timeout=60 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 -artifact_prefix=build/fuzz/ "$corpus" >build/fuzz/"$target".log 2>&1 && failed=0 || failed=1
-    grep -E 'stat::|ERROR|SUMMARY|Test unit' build/fuzz/"$target".log || true
+    grep -E 'stat::|ERROR|SUMMARY|Test unit|Base64' build/fuzz/"$target".log || true
     [ "$failed" = 0 ] || exit 1
 done

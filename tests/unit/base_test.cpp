@@ -183,7 +183,9 @@ TEST(Document, settingsLayerOn) {
 
 TEST(Document, lettersBeyondAsciiBelongIntoQuotes) {
     EXPECT_NO_THROW(parseDocument("# Zürich\na = \"Zürich \\\" ü\"\nb = 'é'\nc = \"\"\"ä\n\"ö\"\n\"\"\" # ß\nd = \"\"\n", "t"));
-    for (const char* text : {"a = 1\nb = ä\n", "a = 1\n  ü = 1\n", "a = \"x\"\nb\xC2\xA0= 1\n", "a = 1\nb = \xFF\n"}) {
+    const Node continued = parseDocument("a = \"\"\"x \\\n  étage\"\"\"", "t");   // a line's end that is left out, then a letter
+    EXPECT_EQ(*continued.find("a")->text(), "x étage");
+    for (const char* text : {"a = 1\nb = \"\"\"\\é\"\"\"\n", "a = 1\nb = \"\"\"\\\xC2\xA0\"\"\"\n", "a = \"\"\"\"\"\"\nb = é\n", "a = 1\nb = ä\n", "a = 1\n  ü = 1\n", "a = \"x\"\nb\xC2\xA0= 1\n", "a = 1\nb = \xFF\n"}) {
         try {
             parseDocument(text, "t");
             FAIL() << text;
