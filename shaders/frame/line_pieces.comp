@@ -58,7 +58,7 @@ void main() {
             // A line that ends, ends in the middle of its last cell.
             if (count == 1) to.place = vec2(0.5);
         }
-        if (count > 1 || goesOn(cell, bottom != 0u, right != 0u, upper != 0u)) pieces.xy = encodePiece(join(from, to));
+        if (count > 1 || goesOn(cell, bottom != 0u, right != 0u, upper != 0u)) pieces.xy = withSecond(encodePiece(join(from, to)), count > 2);
     }
     write_first(uvec4(pieces.xy, 0u, 0u));
     write_second(uvec4(pieces.zw, 0u, 0u));

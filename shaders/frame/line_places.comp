@@ -61,7 +61,16 @@ void main() {
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
     uint found = load(sides, pixel).r;
     Surface here = surfaceAt(pixel);
-    uint right = crossingBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1)), decodeSide(found, 0));
-    uint above = crossingBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)), decodeSide(found, 1));
-    write_result(uvec4(right, above, 0u, 0u));
+    // Few pixels have a line on both ways: pixels that are drawn together take turns as often as one of them needs.
+    uvec2 crossings = uvec2(0);
+    uint pending = uint(decodeSide(found, 0).source != NO_SOURCE) | (uint(decodeSide(found, 1).source != NO_SOURCE) << 1);
+    do {
+        int direction = (pending & 1u) != 0u ? 0 : 1;
+        ivec2 way = direction == 0 ? ivec2(1, 0) : ivec2(0, 1);
+        uint crossing = crossingBetween(here, surfaceAt(min(pixel + way, view.size - 1)), decodeSide(found, direction));
+        if (direction == 0) crossings.x = crossing;
+        else crossings.y = crossing;
+        pending &= pending - 1u;
+    } while (pending != 0u);
+    write_result(uvec4(crossings, 0u, 0u));
 }

@@ -7,18 +7,25 @@ uvec2 seenAt(ivec2 pixel) { return load(visibility, (clamp(pixel, ivec2(0), view
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
+// What is seen at a pixel: a triangle of an instance, and its corners in mesh space.
+struct Triangle { uint number; vec3 corners[3]; };
+
+Triangle triangleOf(uvec2 seen) {
+    uint number = seen.x - 1u;
+    Instance instance = instanceAt(number);
+    ivec3 at = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + seen.y)).xyz);
+    return Triangle(number, vec3[3](texelFetch(positions, at.x).xyz, texelFetch(positions, at.y).xyz, texelFetch(positions, at.z).xyz));
+}
+
 // Edge functions of a triangle, linear along the way from a pixel: at + slope · t, all of one sign inside. Divided by their sum they are the barycentric
 // weights of the corners across.
 struct EdgeFunctions { vec3 at, slope; };
 
-EdgeFunctions edgesOf(uvec2 seen, ivec2 pixel, ivec2 way) {
-    uint number = seen.x - 1u;
-    Instance instance = instanceAt(number);
-    ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + seen.y)).xyz);
+EdgeFunctions edgesOf(Triangle triangle, ivec2 pixel, ivec2 way) {
     vec2 centre = rayOf(pixel), along = vec2(way) * view.rayScale;
     vec3 h[3];   // xy: from the pixel's centre, times z
     for (int i = 0; i < 3; ++i) {
-        vec3 p = viewFromMesh(number, texelFetch(positions, corners[i]).xyz);
+        vec3 p = viewFromMesh(triangle.number, triangle.corners[i]);
         float w = view.orthographic ? 1.0 : -p.z;
         h[i] = vec3(p.xy - centre * w, w);
     }
@@ -32,8 +39,8 @@ EdgeFunctions edgesOf(uvec2 seen, ivec2 pixel, ivec2 way) {
 }
 
 // The part of the way from `pixel` to `pixel + way` that a triangle covers: from x to y, in ways; empty where x > y.
-vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
-    EdgeFunctions edges = edgesOf(seen, pixel, way);
+vec2 spanOf(Triangle triangle, ivec2 pixel, ivec2 way) {
+    EdgeFunctions edges = edgesOf(triangle, pixel, way);
     vec3 at = edges.at, slope = edges.slope;
     float side = at.x + at.y + at.z < 0.0 ? -1.0 : 1.0;
     vec2 span = vec2(-1e9, 1e9);
@@ -49,14 +56,11 @@ vec2 spanOf(uvec2 seen, ivec2 pixel, ivec2 way) {
 uint objectSeen(uvec2 seen) { return triangleObject(instanceAt(seen.x - 1u), seen.y); }
 
 // Do two triangles of an instance have two corners in common? Corners are stored anew for some triangles: places decide.
-bool shareEdge(uint number, uint one, uint other) {
-    Instance instance = instanceAt(number);
-    ivec3 a = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + one)).xyz), b = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + other)).xyz);
-    vec3 a0 = texelFetch(positions, a.x).xyz, a1 = texelFetch(positions, a.y).xyz, a2 = texelFetch(positions, a.z).xyz;
+bool shareEdge(Triangle one, Triangle other) {
     int alike = 0;
     for (int i = 0; i < 3; ++i) {
-        vec3 p = texelFetch(positions, b[i]).xyz;
-        alike += int(p == a0 || p == a1 || p == a2);
+        vec3 p = other.corners[i];
+        alike += int(p == one.corners[0] || p == one.corners[1] || p == one.corners[2]);
     }
     return alike >= 2;
 }
@@ -66,8 +70,9 @@ bool shareEdge(uint number, uint one, uint other) {
 float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
     Instance instance = instanceAt(seen.x - 1u);
     Material look = materialAt(triangleMaterial(instance, seen.y));
-    EdgeFunctions edges = edgesOf(seen, pixel, way);
-    vec3 here = edges.at, there = edges.at + edges.slope, beside = edges.at + edgesOf(seen, pixel, way.yx).slope;
+    Triangle triangle = triangleOf(seen);
+    EdgeFunctions edges = edgesOf(triangle, pixel, way);
+    vec3 here = edges.at, there = edges.at + edges.slope, beside = edges.at + edgesOf(triangle, pixel, way.yx).slope;
     vec3 sums = vec3(here.x + here.y + here.z, there.x + there.y + there.z, beside.x + beside.y + beside.z);
     // Where the triangle's plane is seen edge-on, or passes the eye, there is no place on it.
     if (sums.x * sums.y <= 0.0 || sums.x * sums.z <= 0.0) return 2.0;
@@ -89,8 +94,8 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
 // it may be the other half of the same polygon, which has the next number or the one before; else it is seen close by, if anywhere. Without `goOn` the triangle's own end counts.
 float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     uvec2 seen = seenAt(pixel);
-    uvec2 lastSeen = seen;
-    vec2 last = spanOf(seen, pixel, way);
+    Triangle first = triangleOf(seen), end = first;
+    vec2 last = spanOf(first, pixel, way);
     float reach = clamp(last.y, 0.0, 1.0);
 #ifdef CUTOUTS
     float hole = holeOnWay(seen, pixel, way);
@@ -98,24 +103,28 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
 #endif
     if (!goOn) return reach;
     ivec2 across = ivec2(way.y, way.x);
-    for (int i = -1; i <= 1; i += 2) {
-        uint neighbour = uint(int(seen.y) + i);   // below 0 it wraps to a large number
-        if (reach >= 1.0 || neighbour >= triangleCountOf(seen.x - 1u) || !shareEdge(seen.x - 1u, seen.y, neighbour)) continue;
-        vec2 span = spanOf(uvec2(seen.x, neighbour), pixel, way);
-        if (span.x <= reach + 0.01 && span.y > reach) last = span, lastSeen.y = neighbour, reach = min(span.y, 1.0);
-    }
+    // Candidates in the order in which they are tried: the triangle before it, the one after it, then those seen beside the way's ends.
+    uint candidates = uint(seen.y > 0u) | (uint(seen.y + 1u < triangleCountOf(seen.x - 1u)) << 1);
     for (int i = 0; i < 4; ++i) {
-        ivec2 near = pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across);
-        uvec2 other = seenAt(near);
-        bool isNext = reach < 1.0 && other.x != 0u && other != seen && other.x == seen.x;
-        if (!isNext || objectSeen(other) != objectSeen(seen)) continue;
-        vec2 span = spanOf(other, pixel, way);
-        // Neighbours share an edge, so that one begins where the other ends: but for rounding.
-        if (span.x <= reach + 0.01 && span.y > reach) last = span, lastSeen = other, reach = min(span.y, 1.0);
+        uvec2 other = seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across));
+        if (other.x == seen.x && other.y != seen.y && objectSeen(other) == objectSeen(seen)) candidates |= 4u << i;
     }
+    // Only as often as some pixel of those that are drawn together needs.
+    do {
+        int i = findLSB(candidates);
+        bool isNumbered = i < 2;
+        uvec2 other = seenAt(pixel + (i < 4 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across));
+        if (isNumbered) other = uvec2(seen.x, i == 0 ? seen.y - 1u : seen.y + 1u);
+        Triangle next = triangleOf(candidates == 0u ? seen : other);
+        vec2 span = spanOf(next, pixel, way);
+        // Neighbours share an edge, so that one begins where the other ends: but for rounding.
+        bool goesOn = reach < 1.0 && candidates != 0u && span.x <= reach + 0.01 && span.y > reach && (!isNumbered || shareEdge(first, next));
+        if (goesOn) last = span, end = next, reach = min(span.y, 1.0);
+        candidates = reach < 1.0 ? candidates & (candidates - 1u) : 0u;
+    } while (candidates != 0u);
     // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way. (Not so beyond a face seen nearly
     // edge-on, which is thin but long.)
-    vec2 beside = spanOf(lastSeen, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), across);
+    vec2 beside = spanOf(end, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), across);
     if (last.y - last.x < 0.75 && beside.y - beside.x < 1.5) reach = 0.5 * (reach + 1.0);
     return reach;
 }

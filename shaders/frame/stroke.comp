@@ -49,7 +49,7 @@ Seen see(uvec2 code, vec2 fromCorner) {
     Piece piece = decodePiece(code);
     vec2 along = piece.to - piece.from, off = fromCorner - piece.from;
     float squared = dot(along, along);
-    // A piece without a length has no direction either; its neighbours draw what it would.
+    // A piece without a length has no direction either; its neighbours draw what it would. Nor has no piece at all.
     if (squared == 0.0) off = vec2(1e4);
     return Seen(off - clamp(dot(off, along) / max(squared, 1e-6), 0.0, 1.0) * along, along, piece.code, (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
 }
@@ -91,21 +91,29 @@ void add(Seen seen) {
 void finish() {}
 #endif
 
+// Cells whose pieces may reach the pixel, row by row, counted from the pixel's own.
+ivec2 cellAt(int i) { return ivec2(i % (2 * WINDOW), i / (2 * WINDOW)) - WINDOW; }
+
+ivec2 inView(ivec2 cell) { return clamp(cell, ivec2(0), view.size - 1); }
+
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
     // Pieces lie on the grid of this sample's points; lines are drawn as seen from the middle of the pixel, so that all samples agree.
     vec2 here = -view.samplePlace;
-    for (int y = -params.window; y < params.window; ++y) {
-        for (int x = -params.window; x < params.window; ++x) {
-            ivec2 cell = clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1);
-            uvec2 one = load(first, cell).xy;
-            vec2 fromCorner = here - vec2(cell - pixel);
-            if (one.x == 0u) continue;
-            add(see(one, fromCorner));
-            uvec2 two = load(second, cell).xy;
-            if (two.x != 0u) add(see(two, fromCorner));
-        }
+    // Few of the cells around have a piece. Which ones is found out first: pixels that are drawn together then go through as many pieces as one
+    // of them has, not through all cells.
+    for (int begin = 0; begin < WINDOW * WINDOW * 4; begin += 32) {
+        uint occupied = 0u;
+        for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i) occupied |= uint(load(first, inView(pixel + cellAt(begin + i))).x != 0u) << i;
+        bool beside = false;   // is it the turn of a cell's second piece?
+        do {
+            ivec2 cell = cellAt(begin + max(findLSB(occupied), 0));
+            uvec2 one = load(first, inView(pixel + cell)).xy, two = load(second, inView(pixel + cell)).xy;
+            add(see(beside ? two : one, here - vec2(inView(pixel + cell) - pixel)));
+            beside = !beside && hasSecond(one);
+            if (!beside) occupied &= occupied - 1u;
+        } while (occupied != 0u);
     }
     finish();
     vec4 color = params.opacity * (vec4(top.rgb, 1) * top.a + (1.0 - top.a) * rest.a * vec4(rest.rgb, 1));

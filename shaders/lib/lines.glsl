@@ -55,6 +55,10 @@ uvec2 encodePiece(Piece p) {
     return uvec2(ends.x | (ends.y << 8) | (ends.z << 16) | (ends.w << 24), (p.code & 0x7fffffffu) | (uint(p.ownerIsLeft) << 31));
 }
 
+// Where a crossing says its place, a piece, which knows its ends, says whether its cell has a second one.
+uvec2 withSecond(uvec2 piece, bool has) { return uvec2(piece.x, (piece.y & ~255u) | uint(has)); }
+bool hasSecond(uvec2 piece) { return (piece.y & 1u) != 0u; }
+
 Piece decodePiece(uvec2 code) {
     vec4 ends = vec4(uvec4(code.x, code.x >> 8, code.x >> 16, code.x >> 24) & 255u) / 255.0;
     return Piece(ends.xy, ends.zw, code.y, ownedByOther(code.y));

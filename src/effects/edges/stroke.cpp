@@ -12,7 +12,6 @@ namespace edges_stroke {
 struct Constants {
     glm::vec4 silhouette{0}, crease{0}, object{0}, material{0}, section{0};
     float opacity = 1;
-    int window = 1;
 };
 constexpr Field kConstants[] = {
     field<&Constants::silhouette>("silhouette", {.doc = "Linear colour, and half of the width in pixels, of lines where one surface ends in front of another."}),
@@ -21,7 +20,6 @@ constexpr Field kConstants[] = {
     field<&Constants::material>("material", {.doc = "The same where materials meet."}),
     field<&Constants::section>("section", {.doc = "The same around the cut faces of sections."}),
     field<&Constants::opacity>("opacity", {.doc = "Of all lines."}),
-    field<&Constants::window>("window", {.unit = "pixels", .doc = "How far lines can matter."}),
 };
 
 struct NearConstants {
@@ -55,7 +53,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
         if (style.width <= 0) style = widest;
     const bool oneColor = !records && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style.color == widest.color; });
     const bool oneLook = !records && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style == widest; });
-    // A line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel beside the centre of its own.
+    // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel beside the centre of its own.
     const int window = static_cast<int>(std::ceil((stroke.side == LineSide::both ? widest.width / 2 : widest.width) + 1));
     const std::string suffix = graph.layerSuffix();
     const auto pass = [&](std::string name, std::vector<Read> reads, std::vector<Write> writes, std::string note) {
@@ -101,11 +99,12 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     graph.add(std::move(join));
 
     Pass draw = pass("stroke", {mask, {"first", first, window}, {"second", second, window}}, {}, fmt::format("{} cells per pixel near lines", 4 * window * window));
+    draw.defines.emplace_back("WINDOW", std::to_string(window));
     if (oneColor) draw.defines.emplace_back("ONE_COLOR", "");
     if (oneLook) draw.defines.emplace_back("ONE_LOOK", "");
     if (stroke.side != LineSide::both) draw.defines.emplace_back("ONE_SIDE", stroke.side == LineSide::inner ? "1" : "-1");
     if (records) draw.defines.emplace_back("WITH_RECORDS", ""), draw.needs = SceneData::positions;
-    draw.params = paramsBlock(kConstants, Constants{pack(styles[0]), pack(styles[1]), pack(styles[2]), pack(styles[3]), pack(styles[4]), stroke.opacity, window});
+    draw.params = paramsBlock(kConstants, Constants{pack(styles[0]), pack(styles[1]), pack(styles[2]), pack(styles[3]), pack(styles[4]), stroke.opacity});
     if (const auto below = graph.find(aov::edges)) {
         // Away from this layer's lines the layers below must stay.
         draw.reads.push_back({"layersBelow", *below});
