@@ -95,7 +95,7 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
 void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
     const UniformBlock block = viewBlock(view);
     for (const auto& planned : plan.passes)
-        if (graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, view, block);
+        if (planned.runs && graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, view, block);
 }
 
 void Executor::allocate(const Plan& plan) {
@@ -118,18 +118,6 @@ const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) cons
     return textures_.at(static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(resource.index)]));
 }
 
-/// Is it this run's turn to run the pass?
-static bool isDue(const Pass& pass, const View& view) {
-    switch (pass.rate) {
-        case Pass::Rate::frame: return view.sample == 0;
-        case Pass::Rate::subFrame: return view.sample % view.split.perSubFrame() == 0;
-        case Pass::Rate::line: return view.findsLines();
-        case Pass::Rate::occlusion: return view.findsOcclusion();
-        case Pass::Rate::sample: break;
-    }
-    return true;
-}
-
 void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
@@ -148,7 +136,7 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuSc
     stamp();
     for (const auto& planned : plan.passes) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-        if (!isDue(pass, view)) {
+        if (!planned.runs) {
             stamp();
             continue;
         }

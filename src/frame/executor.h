@@ -25,8 +25,8 @@ public:
     /// Compiles every program that the plan needs.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
-    /// Draws one sample of a frame; the first one of a frame or sub-frame also what its samples share. Samples must come in order. With
-    /// `measure`, adds each pass's GPU time to milliseconds().
+    /// Draws one sample of a frame: the passes that run in its plan. Samples must come in order. With `measure`, adds each pass's GPU time to
+    /// milliseconds().
     /// `rays` is there when the plan needs SceneData::rays.
     void run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure);
 

@@ -84,6 +84,17 @@ SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize) {
     return {1, samples};
 }
 
+bool View::runs(Pass::Rate rate) const {
+    switch (rate) {
+        case Pass::Rate::frame: return sample == 0;
+        case Pass::Rate::subFrame: return sample % split.perSubFrame() == 0;
+        case Pass::Rate::line: return findsLines();
+        case Pass::Rate::occlusion: return findsOcclusion();
+        case Pass::Rate::sample: break;
+    }
+    return true;
+}
+
 glm::dmat4 View::clipFromView() const {
     const glm::dvec2 size(canvas.size);
     // ndc = 2·(pixel − canvas.origin)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the pixel's corner: + 0.5 − 0.5.

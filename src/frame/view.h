@@ -79,6 +79,8 @@ struct View {
     bool findsOcclusion() const { return isOneOf(aoSamples); }
     /// How many samples of a frame run the passes of a rate other than subFrame and frame.
     int samplesAt(Pass::Rate rate) const { return rate == Pass::Rate::occlusion ? aoSamples : rate == Pass::Rate::line ? lineSamples : split.samples(); }
+    /// Do passes of the rate run in this sample?
+    bool runs(Pass::Rate rate) const;
     /// Does the sample belong to so many that are spread evenly over all of them?
     bool isOneOf(int some) const { return sample == 0 || sample * some / split.samples() != (sample - 1) * some / split.samples(); }
     /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).

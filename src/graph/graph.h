@@ -130,6 +130,7 @@ struct PlannedPass {
     std::string reason;           ///< who asked for it
     int halo = 0;                 ///< pixels around the picture that it must make for later passes to be right up to the border
     bool whole = false;           ///< everything that is drawn around the picture, since a later pass looks as far as it can
+    bool runs = true;             ///< in the run that the plan is for; see narrow()
 };
 
 struct CulledPass {
@@ -162,6 +163,10 @@ struct Plan {
 /// Culls, orders, and lays resources out in as few textures as their lifetimes allow. Throws Errors (internal) naming *every* resource
 /// that is read but not written, written twice, or part of a cycle.
 Plan compile(const Graph& graph, std::span<const Wanted> wanted);
+
+/// The plan of one run, in which only some passes are due: what is made for every sample is made only as far as these, and `wanted`, need it.
+/// Passes and textures keep their places.
+Plan narrow(const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue);
 
 /// Facts about a picture that the explanation shows above the passes: name and value.
 using PlanFacts = std::vector<std::pair<std::string, std::string>>;

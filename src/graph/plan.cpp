@@ -7,6 +7,33 @@
 namespace limn {
 namespace {
 
+/// Goes from what is wanted back to what that reads: a pass must make as much around the picture as its readers make, and what they read around that.
+/// What runs for every sample makes no more than passes that run in this one read; what runs less often keeps what it makes.
+void spreadDemand(const Graph& graph, Plan& plan, std::span<const Wanted> wanted) {
+    struct Demand { bool isRead = false, whole = false; int halo = 0; };
+    std::vector<Demand> demand(graph.resources.size());
+    const auto of = [&](ResourceId id) -> Demand& { return demand[static_cast<std::size_t>(id.index)]; };
+    for (const auto& want : wanted) of(want.resource).isRead = true, of(want.resource).halo = std::max(of(want.resource).halo, want.halo);
+    for (auto planned = plan.passes.rbegin(); planned != plan.passes.rend(); ++planned) {
+        const Pass& pass = graph.passes[static_cast<std::size_t>(planned->pass)];
+        const bool isPerSample = pass.rate == Pass::Rate::sample;
+        if (isPerSample) planned->halo = 0, planned->whole = false, planned->runs = false;
+        for (std::size_t w = 0; w < pass.writes.size(); ++w) {
+            const Demand& written = of(pass.writes[w].resource);
+            if (isPerSample && !written.isRead && graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].format != Format::depth32f) planned->writes[w] = false;
+            if (isPerSample) planned->runs = planned->runs || written.isRead;
+            planned->halo = std::max(planned->halo, written.halo), planned->whole = planned->whole || written.whole;
+        }
+        // Even, so that images of half the size have the picture's pixels in the same places.
+        planned->halo = (planned->halo + 1) / 2 * 2;
+        if (!planned->runs) continue;
+        for (const auto& read : pass.reads) {
+            Demand& needed = of(read.resource);
+            needed.isRead = true, needed.halo = std::max(needed.halo, planned->halo + read.halo), needed.whole = needed.whole || read.whole || planned->whole;
+        }
+    }
+}
+
 class Compiler {
 public:
     Compiler(const Graph& graph, std::span<const Wanted> wanted) : graph_(graph), wanted_(wanted) {}
@@ -19,7 +46,7 @@ public:
         for (const auto& want : wanted_) need(want.resource, fmt::format("asked for: {}", want.name));
         errors_.throwIfAny();
         collectPasses();
-        spreadHalos();
+        spreadDemand(graph_, plan_, wanted_);
         layOutTextures();
         return std::move(plan_);
     }
@@ -75,23 +102,6 @@ private:
                 if (planned.writes.back()) plan_.sceneData = plan_.sceneData | write.needs;
             }
             plan_.passes.push_back(std::move(planned));
-        }
-    }
-
-    /// A pass must make as much around the picture as its readers make, and what they read around that.
-    void spreadHalos() {
-        std::vector<int> halo(graph_.resources.size(), 0);
-        std::vector<bool> whole(graph_.resources.size(), false);
-        for (const auto& want : wanted_) halo[index(want.resource)] = std::max(halo[index(want.resource)], want.halo);
-        for (auto planned = plan_.passes.rbegin(); planned != plan_.passes.rend(); ++planned) {
-            const Pass& pass = graph_.passes[static_cast<std::size_t>(planned->pass)];
-            for (const auto& write : pass.writes) planned->halo = std::max(planned->halo, halo[index(write.resource)]), planned->whole = planned->whole || whole[index(write.resource)];
-            // Even, so that images of half the size have the picture's pixels in the same places.
-            planned->halo = (planned->halo + 1) / 2 * 2;
-            for (const auto& read : pass.reads) {
-                halo[index(read.resource)] = std::max(halo[index(read.resource)], planned->halo + read.halo);
-                whole[index(read.resource)] = whole[index(read.resource)] || read.whole || planned->whole;
-            }
         }
     }
 
@@ -159,6 +169,12 @@ std::uint64_t Plan::textureBytes() const {
     std::uint64_t bytes = 0;
     for (const auto& texture : textures) bytes += texture.bytes();
     return bytes;
+}
+
+Plan narrow(const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue) {
+    for (auto& planned : plan.passes) planned.runs = isDue(graph.passes[static_cast<std::size_t>(planned.pass)]);
+    spreadDemand(graph, plan, wanted);
+    return plan;
 }
 
 Plan compile(const Graph& graph, std::span<const Wanted> wanted) { return Compiler(graph, wanted).compile(); }

@@ -103,11 +103,33 @@ int chooseTileSize(const RenderConfig& config, const FramePlans& plans, glm::ive
     return std::clamp((static_cast<int>(std::sqrt(pixels)) - 2 * plans.guard) / 4 * 4, 256, std::max(whole, 256));
 }
 
+/// What samples save that find neither lines nor ambient occlusion, in words; empty where there are none, or nothing is saved.
+static std::string savedSamples(const FramePlan& frame, View view) {
+    const auto findsNothing = [&] { return !view.findsLines() && !view.findsOcclusion(); };
+    int count = 0, one = -1;
+    for (view.sample = 0; view.sample < view.split.samples(); ++view.sample)
+        if (findsNothing()) one = view.sample, ++count;
+    if (count == 0) return {};
+    view.sample = one;
+    const Plan narrow = frame.ofSample(view);
+    std::string spared;
+    int halo = 0;
+    for (std::size_t i = 0; i < narrow.passes.size(); ++i) {
+        const Pass& pass = frame.graph.passes[static_cast<std::size_t>(narrow.passes[i].pass)];
+        if (pass.rate != Pass::Rate::sample) continue;
+        halo = std::max(halo, narrow.passes[i].halo);
+        for (std::size_t w = 0; w < pass.writes.size(); ++w)
+            if (frame.plan.passes[i].writes[w] && !(narrow.passes[i].runs && narrow.passes[i].writes[w])) spared += (spared.empty() ? "" : ", ") + frame.graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].name;
+    }
+    return fmt::format("{} of {} find neither lines nor occlusion: {}made, {} pixels around the picture", count, view.split.samples(), spared.empty() ? "all is " : spared + " not ", halo);
+}
+
 ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {
     const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
     const SceneFacts facts = sceneFacts(scene);
     const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
     FramePlans plans = planBoth(config, scene, facts, frame, maxTextureSize, 0, {firstBlock, firstBlock});
+    const std::string saved = savedSamples(plans.averaged, plans.averagedView);
     ExplainedPlan result{std::move(plans.averaged), std::move(plans.centre), {}};
 
     const auto& split = plans.split;
@@ -118,6 +140,7 @@ ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, 
     fact("scene", loaded.scene.file);
     fact("picture", fmt::format("{}×{} pixels, camera '{}'", config.image.size.x, config.image.size.y, scene.camera.name));
     fact("samples", fmt::format("{} per pixel: {} sub-frame{} on a raster {}× finer", split.samples(), split.subFrames, split.subFrames == 1 ? "" : "s", split.raster));
+    if (!saved.empty()) fact("spared", saved);
     if (firstBlock.size != config.image.size) fact("blocks", fmt::format("of up to {}×{} pixels, in tiles of up to {} each way", firstBlock.size.x, firstBlock.size.y, std::min(chooseTileSize(config, plans, firstBlock.size), largestBlockSide(config.image.size))));
     if (plans.guard > 0) fact("guard band", fmt::format("{} pixels drawn around the picture", plans.guard));
     fact("accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)]));

@@ -99,4 +99,8 @@ static FramePlan planOf(const RenderConfig& config, const SceneFacts& facts, con
     return result;
 }
 
+Plan FramePlan::ofSample(const View& view) const {
+    return narrow(graph, plan, wanted, [&](const Pass& pass) { return view.runs(pass.rate); });
+}
+
 }  // namespace limn

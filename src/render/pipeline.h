@@ -12,6 +12,9 @@ struct FramePlan {
     std::vector<const Aov*> aovs;
     Plan plan;
     bool usesFineRaster = false;        ///< something is drawn once for several samples
+
+    /// What is to be done in the view's sample.
+    Plan ofSample(const View& view) const;
 };
 
 /// `aovs`: what is wanted. With several samples the averaged ones are summed over them, and the result is their mean.

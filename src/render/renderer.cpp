@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace limn {
 namespace {
@@ -99,6 +100,13 @@ std::string cpuFeatures() {
 
 Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder) : device_(device), shaders_(shaderFolder), executor_(device_, shaders_) {}
 
+/// Compiles the programs of all samples; they differ by what is found anew in them.
+void Renderer::prepare(const FramePlan& frame, View view) {
+    std::set<std::pair<bool, bool>> kinds;
+    for (view.sample = 0; view.sample < view.split.samples(); ++view.sample)
+        if (kinds.emplace(view.findsOcclusion(), view.findsLines()).second) executor_.prepare(frame.graph, frame.ofSample(view), view);
+}
+
 void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const FramePlans& plans, std::vector<PartTime>& times) {
     SceneKey key = sceneKey(config, loaded, scene, plans.sceneData());
     const auto& materials = loaded.scene.materials;
@@ -107,7 +115,7 @@ void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded,
     Stopwatch watch(times);
     // Triangles are made while the programs load.
     auto coming = awaited_.valid() ? std::move(awaited_) : std::async(std::launch::async, [&] { return buildMeshes(config, loaded, scene, key); });
-    executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
+    prepare(plans.averaged, plans.averagedView);
     watch.lap("of which programs");
     SceneMeshes made = coming.get();
     if (made.key != key) made = buildMeshes(config, loaded, scene, key);
@@ -130,7 +138,7 @@ std::vector<Image> Renderer::drawTile(const Frame& frame, const PixelRect& block
     const Tile tile{block, rect};
     const FramePlans plans = planBoth(config, *frame.scene, *frame.facts, frame.number, frame.largest, options.guard, tile);
     GpuScene& gpu = *gpuScene_;
-    executor_.prepare(plans.averaged.graph, plans.averaged.plan, plans.averagedView);
+    prepare(plans.averaged, plans.averagedView);
 
     executor_.resetMeasurements();
     for (int sample = 0; sample < plans.split.samples(); ++sample) {
@@ -139,7 +147,7 @@ std::vector<Image> Renderer::drawTile(const Frame& frame, const PixelRect& block
         const View view = makeView(frame.scene->camera, frame.scene->info, request);
         gpu.setView(*frame.scene, view);
         const FramePlan one = planFrame(config, *frame.facts, view, plans.averaged.aovs, frame.number);
-        executor_.run(one.graph, one.plan, view, gpu, rayScene_.get(), options.measure);
+        executor_.run(one.graph, one.ofSample(view), view, gpu, rayScene_.get(), options.measure);
     }
     gl::finish();
     passTimes_.clear();

@@ -63,6 +63,38 @@ TEST(Plan, wantedAndPersistentTexturesAreNeverShared) {
     EXPECT_EQ(plan.textures.size(), 3u);
 }
 
+TEST(Plan, aRunMakesWhatItsOwnPassesRead) {
+    Builder b;
+    const auto ids = b.image("ids"), depth = b.image("depth"), normal = b.image("normal"), lines = b.image("lines"), beauty = b.image("beauty");
+    b.pass("raster", {}, {ids});
+    b.pass("resolve", {ids}, {depth, normal});
+    b.pass("lines", {depth, normal}, {lines});
+    b.pass("shade", {depth, lines}, {beauty});
+    b.graph.passes[0].rate = Pass::Rate::subFrame;
+    b.graph.passes[2].rate = Pass::Rate::line;
+    b.graph.passes[2].reads[0].halo = 6;
+    const Wanted wanted[] = {{"beauty", beauty}};
+    const Plan plan = compile(b.graph, wanted);
+    EXPECT_EQ(plan.passes[1].halo, 6);
+    const auto run = [&](bool first, bool findsLines) {
+        return narrow(b.graph, plan, wanted, [&](const Pass& pass) { return pass.rate == Pass::Rate::line ? findsLines : pass.rate == Pass::Rate::subFrame ? first : true; });
+    };
+    const Plan all = run(true, true);
+    for (std::size_t i = 0; i < plan.passes.size(); ++i) {
+        EXPECT_TRUE(all.passes[i].runs);
+        EXPECT_EQ(all.passes[i].halo, plan.passes[i].halo);
+        EXPECT_EQ(all.passes[i].writes, plan.passes[i].writes);
+    }
+    const Plan plain = run(false, false);
+    EXPECT_FALSE(plain.passes[0].runs);
+    EXPECT_FALSE(plain.passes[2].runs);
+    EXPECT_EQ(plain.passes[1].writes, (std::vector<bool>{true, false})) << "only lines read the normal";
+    EXPECT_EQ(plain.passes[1].halo, 0);
+    EXPECT_EQ(plain.textureOf, plan.textureOf);
+    const Plan begins = run(true, false);
+    EXPECT_EQ(begins.passes[0].halo, 6) << "triangle ids serve later samples, which find lines";
+}
+
 TEST(Plan, allErrorsAtOnce) {
     Builder b;
     const auto a = b.image("a"), c = b.image("c"), d = b.image("d"), lost = b.image("lost");
