@@ -183,6 +183,12 @@ def vertex_colors(mesh, name):
     return [tuple(c / max(1, count) for c in total) if count else (1.0, 1.0, 1.0) for total, count in zip(sums, counts)], differ
 
 
+def same_but_for_rounding(shape, other):
+    """Are coordinates equal to two units in the last place of the largest? Objects that Blender turned as it added them differ by that much."""
+    room = 2.0 ** -22 * max(max(map(abs, shape)), max(map(abs, other)))
+    return len(shape) == len(other) and all(abs(a - b) <= room for a, b in zip(shape, other))
+
+
 def obj_text(mesh, slots, subsurf, colors=None):
     """One mesh in its own coordinates as OBJ. `subsurf`: the modifier to note as tags, or None to write normals instead. `colors`: of each vertex."""
     lines = ["# limn exporter"]
@@ -391,7 +397,7 @@ class Exporter:
         self.context, self.folder, self.animated, self.dense = context, folder, animated, dense
         self.left_out = LeftOut()
         self.meshes = {}             # key -> what was written for it
-        self.by_text = {}            # (OBJ text, subdivision) -> the same
+        self.by_look = {}            # (OBJ text without points, colours, subdivision) -> those that look so
         self.taken, self.taken_textures = set(), set()
         self.materials = {}          # Blender name -> lines
         self.plain = set()           # names of those that take no colours of vertices
@@ -498,16 +504,18 @@ class Exporter:
             if differ:
                 self.left_out.add("colours that differ between the faces at a vertex (averaged)", original.name)
             text = obj_text(mesh, slots, subsurf, colors)
-            look = (text, subdivision_line(subsurf) if subsurf else "")
-            if not known and not moving and look in self.by_text:
-                known = self.meshes[key] = self.by_text[look]   # the same under another name: once is enough
-                return known["name"]
+            shape = [c for vertex in mesh.vertices for c in vertex.co]
+            look = ("\n".join(line for line in text.split("\n") if not line.startswith("v ")), tuple(colors or ()), subdivision_line(subsurf) if subsurf else "")
+            if not known and not moving:
+                for other in self.by_look.get(look, []):
+                    if same_but_for_rounding(shape, other["shape"]):
+                        self.meshes[key] = other   # the same under another name: once is enough
+                        return other["name"]
             if not known:
                 name = file_name(original.name if key[0] == "object" else original.data.name, self.taken)
                 known = self.meshes[key] = {"name": name, "frames": {}, "subsurf": subsurf, "shape": None, "moves": False}
                 self.counts["meshes"] += 1
                 self.note(original, mesh, subsurf)
-            shape = [c for vertex in mesh.vertices for c in vertex.co]
             if known["shape"] is None:
                 known["shape"] = shape
             elif shape != known["shape"]:
@@ -517,7 +525,7 @@ class Exporter:
             with open(path, "w", encoding="utf-8", newline="\n") as file:
                 file.write(text)
             if not moving:
-                self.by_text[look] = known
+                self.by_look.setdefault(look, []).append(known)
             known["frames"][frame] = path
             return known["name"]
         finally:

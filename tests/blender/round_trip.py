@@ -164,6 +164,11 @@ foliage = mesh_from("Foliage", lambda bm: bmesh.ops.create_grid(bm, x_segments=1
 foliage.materials.append(leaf)
 add("foliage", foliage, Matrix.Translation((0, 12, -3)) @ Matrix.Diagonal((0.01, 0.01, 0.01, 1)))
 
+# Copies that differ in the last bit, as those of objects that Blender turned do, and by more.
+for index, factor in enumerate((1, 1 + 1e-7, 1 + 1e-5)):
+    twin = add("twin%d" % index, mesh_from("Twin%d" % index, lambda bm: bmesh.ops.create_icosphere(bm, subdivisions=1, radius=0.7 * factor), uvs=False), Matrix.Translation((0, 12, -3.5)) @ Matrix.Diagonal((0.01, 0.01, 0.01, 1)))
+    subsurf(twin, False)
+
 inked = bpy.data.materials.new("inked")
 inked.line_color = (0.8, 0.1, 0.05, 1)
 next(o for o in scene.objects if o.type == "MESH").data.materials.append(inked)
@@ -184,10 +189,11 @@ for obj in scene.objects:
     with open(os.path.join(out, "truth", obj.name + ".obj"), "w") as file:
         for vertex in mesh.vertices:
             file.write("v %.9g %.9g %.9g\n" % tuple(vertex.co))
-        for item in mesh.uv_layers.active.data:
+        layer = mesh.uv_layers.active
+        for item in layer.data if layer else []:
             file.write("vt %.9g %.9g\n" % tuple(item.uv))
         for polygon in mesh.polygons:
-            file.write("f " + " ".join("%d/%d" % (mesh.loops[c].vertex_index + 1, c + 1) for c in polygon.loop_indices) + "\n")
+            file.write("f " + " ".join(("%d/%d" % (mesh.loops[c].vertex_index + 1, c + 1)) if layer else str(mesh.loops[c].vertex_index + 1) for c in polygon.loop_indices) + "\n")
 
 # Where Blender's own renderer sees anything.
 shown.hide_viewport = False
