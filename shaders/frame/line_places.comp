@@ -25,7 +25,7 @@ Surface surfaceAt(ivec2 pixel) {
 float meetingPlace(Surface a, Surface b) {
     // Of what is linear in the picture, 1/depth or depth, on each plane at both ends: the difference at a, and at b.
     float atA, atB;
-    if (view.orthographic) {
+    if (ORTHOGRAPHIC) {
         vec2 way = b.position.xy - a.position.xy;
         atA = b.depth - dot(b.face.xy, way) / b.face.z - a.depth;
         atB = b.depth - a.depth - dot(a.face.xy, way) / a.face.z;

@@ -26,7 +26,7 @@ EdgeFunctions edgesOf(Triangle triangle, ivec2 pixel, ivec2 way) {
     vec3 h[3];   // xy: from the pixel's centre, times z
     for (int i = 0; i < 3; ++i) {
         vec3 p = viewFromMesh(triangle.number, triangle.corners[i]);
-        float w = view.orthographic ? 1.0 : -p.z;
+        float w = ORTHOGRAPHIC ? 1.0 : -p.z;
         h[i] = vec3(p.xy - centre * w, w);
     }
     EdgeFunctions edges;

@@ -12,6 +12,6 @@ float openAt(float p, float perBleach, float brightness) {
 
 // Depth at the middle between two opposite pixels if both lay on one plane: the harmonic mean in perspective.
 float betweenOpposite(float a, float b) {
-    if (view.orthographic) return 0.5 * a + 0.5 * b;
+    if (ORTHOGRAPHIC) return 0.5 * a + 0.5 * b;
     return 2.0 / (1.0 / a + 1.0 / b);
 }

@@ -9,7 +9,7 @@ const float DEPTH_SLACK = 5e-7;
 float depthAtHeight(ivec2 tap, vec3 position, vec3 normal, float height) {
     vec2 ray = rayOf(tap);
     float level = dot(normal, position) + height;
-    if (view.orthographic) return abs(normal.z) > 1e-6 ? (dot(normal.xy, ray) - level) / normal.z : 0.0;
+    if (ORTHOGRAPHIC) return abs(normal.z) > 1e-6 ? (dot(normal.xy, ray) - level) / normal.z : 0.0;
     float slope = dot(normal, vec3(ray, -1.0));
     return abs(slope) > 1e-6 ? max(level / slope, 0.0) : 0.0;
 }

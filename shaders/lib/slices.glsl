@@ -48,7 +48,7 @@ Slice sliceAt(SightFrame sight, vec3 position, vec3 normal, vec2 turn) {
     s.tangent = across * s.cosN - sight.toEye * s.sinN;
     s.upward = normal / s.weight;
     float depth = -position.z;
-    s.onScreen = (view.orthographic ? across.xy : (across.xy + position.xy * (across.z / depth)) / depth) / (view.rayScale * float(COARSENESS));
+    s.onScreen = (ORTHOGRAPHIC ? across.xy : (across.xy + position.xy * (across.z / depth)) / depth) / (view.rayScale * float(COARSENESS));
     return s;
 }
 
@@ -70,7 +70,7 @@ float openArc(Slice s, float side, float rise) {
 // How far from the point the march along a slice may go, in pixels: to the edge of the radius' sphere as it is seen, and not beyond what was
 // drawn.
 float marchLength(Slice s, ivec2 pixel, vec2 direction, float speed, vec3 position, float radius) {
-    float share = view.orthographic ? 0.0 : radius * inversesqrt(dot(position, position));
+    float share = ORTHOGRAPHIC ? 0.0 : radius * inversesqrt(dot(position, position));
     // A sphere at a distance looks larger than a disk of its radius; near the eye it fills the picture.
     float far = share < 0.99 ? speed * radius * inversesqrt(1.0 - share * share) : 1e9;
     vec2 last = vec2((view.size - 1) / COARSENESS) - vec2(pixel);

@@ -18,16 +18,16 @@ vec2 rayOf(ivec2 pixel) { return (vec2(pixel * COARSENESS + view.origin) + 0.5) 
 
 vec3 viewPosition(ivec2 pixel, float depth) {
     vec2 ray = rayOf(pixel);
-    return vec3(view.orthographic ? ray : ray * depth, -depth);
+    return vec3(ORTHOGRAPHIC ? ray : ray * depth, -depth);
 }
 
 // Unit vector from a view-space position towards the eye.
-vec3 towardsEye(vec3 position) { return view.orthographic ? vec3(0, 0, 1) : normalize(-position); }
+vec3 towardsEye(vec3 position) { return ORTHOGRAPHIC ? vec3(0, 0, 1) : normalize(-position); }
 
 // The pixel that a view-space position falls on. Needs position.z < 0 unless orthographic. Rounded where it lies in the whole picture, so that
 // every tile rounds alike.
 ivec2 pixelOf(vec3 position) {
-    vec2 ray = view.orthographic ? position.xy : position.xy / -position.z;
+    vec2 ray = ORTHOGRAPHIC ? position.xy : position.xy / -position.z;
     vec2 at = (ray - view.rayOffset) / view.rayScale;
     ivec2 origin = view.origin / COARSENESS;   // even, where pixels are coarse
     return ivec2(floor(COARSENESS == 1 ? at : (at - 0.5) / float(COARSENESS) + 0.5)) - origin;
@@ -37,4 +37,4 @@ ivec2 pixelOf(vec3 position) {
 ivec2 pixelFrom(ivec2 pixel, vec2 offset) { return pixel + ivec2(floor(offset + 0.5)); }
 
 // Width of a pixel at a depth, in normalized units.
-float pixelFootprint(float depth) { return float(COARSENESS) * view.rayScale.x * (view.orthographic ? 1.0 : depth); }
+float pixelFootprint(float depth) { return float(COARSENESS) * view.rayScale.x * (ORTHOGRAPHIC ? 1.0 : depth); }

@@ -1,5 +1,7 @@
 #include "frame/view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +42,6 @@ struct ViewConstants {
     glm::ivec2 placeOnRaster;
     int raster, sample;
     unsigned seed;
-    bool orthographic;
     float unit, near, far, clipFar;
 };
 
@@ -60,7 +61,6 @@ constexpr Field kViewConstants[] = {
     field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per pixel, each way, of what is drawn once for several samples."}),
     field<&ViewConstants::sample>("sampleNumber", {.doc = "Number of the sample within a pixel."}),
     field<&ViewConstants::seed>("seed", {.doc = "Of all randomness in this frame."}),
-    field<&ViewConstants::orthographic>("orthographic", {.doc = "Parallel rays."}),
     field<&ViewConstants::unit>("unit", {.doc = "Normalized units per scene unit: a power of two."}),
     field<&ViewConstants::near>("near", {.unit = "normalized units", .doc = "Nearest depth drawn."}),
     field<&ViewConstants::far>("far", {.unit = "normalized units", .doc = "Depth that paper modes take for the far end."}),
@@ -241,12 +241,14 @@ UniformBlock viewBlock(const View& view) {
     c.raster = view.split.raster;
     c.sample = view.sample;
     c.seed = view.seed;
-    c.orthographic = view.orthographic;
     c.unit = static_cast<float>(view.unit);
     c.near = static_cast<float>(view.near);
     c.far = static_cast<float>(view.far);
     c.clipFar = static_cast<float>(view.clipFar);
-    return makeUniformBlock("view", 0, kViewConstants, &c);
+    UniformBlock block = makeUniformBlock("view", 0, kViewConstants, &c);
+    // Known when shaders are compiled: software renderers would compute both kinds of everything.
+    block.glsl += fmt::format("const bool ORTHOGRAPHIC = {};   // parallel rays\n", view.orthographic);
+    return block;
 }
 
 }  // namespace limn

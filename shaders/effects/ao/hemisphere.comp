@@ -46,7 +46,7 @@ void main() {
         vec3 offset = basis * params.kernelPoints[i].xyz * params.radius;
         vec3 point = position + offset;
         // A point behind the eye falls on no pixel.
-        if (!view.orthographic && point.z > -1e-3 * centre) continue;
+        if (!ORTHOGRAPHIC && point.z > -1e-3 * centre) continue;
         ivec2 tap = pixelOf(point);
 #ifdef CLAMP_TAPS
         tap = clamp(tap, ivec2(0), (view.size - 1) / COARSENESS);

@@ -23,7 +23,7 @@ float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 
     vec3 point = position + offset * params.radius;
     float reach = params.radius;
     // A point behind the eye falls on no pixel.
-    bool isBefore = view.orthographic || point.z <= -1e-3 * centre;
+    bool isBefore = ORTHOGRAPHIC || point.z <= -1e-3 * centre;
     ivec2 tap = pixelOf(vec3(point.xy, isBefore ? point.z : -centre));
     bool counts = isBefore && insideRegion(tap) && tap != pixel;
 #endif

@@ -78,7 +78,7 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
         bool rises = at.y > 0.0 && at.y * at.y > LEAST_RISE * LEAST_RISE * dot(at, at);
 #ifdef THICK
         if (isNear && rises) {
-            vec3 behind = offset + (view.orthographic ? vec3(0, 0, -1) : normalize(position + offset)) * params.thickness;
+            vec3 behind = offset + (ORTHOGRAPHIC ? vec3(0, 0, -1) : normalize(position + offset)) * params.thickness;
             hidden |= sectorsBetween(share, shareBelow(s, inSlice(s, behind)), dither);
         }
 #endif

@@ -54,7 +54,7 @@ float creaseCosine(Surface s) {
 // Standard depth: 0 at near, 1 at far.
 float projected(float z) {
     if (isBackground(z)) return 1.0;
-    return view.orthographic ? (z - params.near) / (params.far - params.near) : params.far / (params.far - params.near) * (1.0 - params.near / z);
+    return ORTHOGRAPHIC ? (z - params.near) / (params.far - params.near) : params.far / (params.far - params.near) * (1.0 - params.near / z);
 }
 #endif
 

@@ -32,8 +32,8 @@ Hit intersect(Surface s, dvec2 pixelCentre) {
     for (int i = 0; i < 3; ++i) {
         double sideways = dot(s.meshFromView.rows[i].xy, ray);
         // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into the mesh keeps t.
-        direction[i] = (view.orthographic ? 0.0lf : sideways) - s.meshFromView.rows[i].z;
-        if (view.orthographic) origin[i] += sideways;
+        direction[i] = (ORTHOGRAPHIC ? 0.0lf : sideways) - s.meshFromView.rows[i].z;
+        if (ORTHOGRAPHIC) origin[i] += sideways;
     }
     double slope = dot(s.plane, direction);
     // Seen exactly edge-on the ray lies in the plane; any depth on the triangle will do.
@@ -106,14 +106,14 @@ void main() {
 #endif
 #ifdef WRITES_position
     dvec2 ray = centre * view.rayScaleExact + view.rayOffsetExact;
-    vec3 inView = vec3(dvec3(view.orthographic ? ray : ray * depthHere, -depthHere));
+    vec3 inView = vec3(dvec3(ORTHOGRAPHIC ? ray : ray * depthHere, -depthHere));
     write_position(vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
     // The plane's normal by the winding of the mesh; surfaces have two sides, and we see the one that faces us.
     vec3 outward = normalize(viewNormal(s.meshFromView, vec3(s.plane / max(max(abs(s.plane.x), abs(s.plane.y)), max(abs(s.plane.z), 1e-300lf)))));
     vec2 through = rayOf(pixel);
-    bool fromBehind = view.orthographic ? outward.z < 0.0 : dot(outward, vec3(through, -1.0)) > 0.0;
+    bool fromBehind = ORTHOGRAPHIC ? outward.z < 0.0 : dot(outward, vec3(through, -1.0)) > 0.0;
     vec3 towardsViewer = fromBehind ? -outward : outward;
 #endif
 #ifdef WRITES_normal_geometric

@@ -32,7 +32,7 @@ void main() {
 #endif
 #ifdef WRITES_depth
     // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
-    depth = view.orthographic ? view.clipFar - gl_FragCoord.z * (view.clipFar - view.near) : 1.0 / gl_FragCoord.w;
+    depth = ORTHOGRAPHIC ? view.clipFar - gl_FragCoord.z * (view.clipFar - view.near) : 1.0 / gl_FragCoord.w;
 #endif
 #ifdef WRITES_position
     position = vec4((view.worldFromView * vec4(viewPoint, 1.0)).xyz, 0);
@@ -43,7 +43,7 @@ void main() {
     vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz, p2 = texelFetch(positions, corners.z).xyz;
     dvec3 plane = cross(dvec3(p1) - dvec3(p0), dvec3(p2) - dvec3(p0));
     vec3 outward = normalize(viewNormal(meshFromViewAt(instanceNumber), vec3(plane / max(max(abs(plane.x), abs(plane.y)), max(abs(plane.z), 1e-300lf)))));
-    bool fromBehind = view.orthographic ? outward.z < 0.0 : dot(outward, viewPoint) > 0.0;
+    bool fromBehind = ORTHOGRAPHIC ? outward.z < 0.0 : dot(outward, viewPoint) > 0.0;
     vec3 towardsViewer = fromBehind ? -outward : outward;
 #endif
 #ifdef WRITES_normal_geometric
