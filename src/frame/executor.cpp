@@ -110,7 +110,8 @@ void Executor::allocate(const Plan& plan) {
         missing.push_back(i);
         bytes += wanted.bytes();
     }
-    if (device_.report().isSoftware) bringInPages(bytes);   // where images are the C heap's
+    // Images are the C heap's there. A third more: for triangles on their way into them, and for what is read back.
+    if (device_.report().isSoftware) bringInPages(bytes + bytes / 3);
     for (const std::size_t i : missing) textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
 }
 
