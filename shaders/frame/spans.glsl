@@ -3,7 +3,9 @@
 // Include after a sampler `visibility` is declared. Works on homogeneous screen coordinates counted from the first pixel's centre, which stay
 // exact for triangles of any size and for those that reach behind the eye.
 
-uvec2 seenAt(ivec2 pixel) { return load(visibility, (clamp(pixel, ivec2(0), view.size - 1) + view.placeInCanvas) * view.raster + view.placeOnRaster).xy; }
+#include "lib/seen.glsl"
+
+uvec2 seenAt(ivec2 pixel) { return decodeSeen(load(visibility, (clamp(pixel, ivec2(0), view.size - 1) + view.placeInCanvas) * view.raster + view.placeOnRaster)); }
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 

@@ -84,6 +84,10 @@ void EffectBuilder::cutHoles(Pass& pass) const {
     pass.needs = pass.needs | SceneData::uvs | SceneData::materials | SceneData::textures;
 }
 
+void EffectBuilder::defineSeen(Pass& pass) const {
+    if (scene_.triangleBits > 0) pass.defines.emplace_back("TRIANGLE_BITS", std::to_string(scene_.triangleBits));
+}
+
 std::optional<ResourceId> EffectBuilder::shadowMaps() {
     if (shadowMaps_) return shadowMaps_;
     const ShadowLayout layout = shadowLayout(scene_.lights);

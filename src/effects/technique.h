@@ -35,6 +35,7 @@ struct SceneFacts {
     bool lineRecords = false;      ///< some object or material says something about its lines
     bool sections = false;         ///< something is cut open
     bool hatched = false;          ///< and its cut faces are hatched
+    int triangleBits = 0;          ///< of a number that names an instance and its triangle, where 32 bits can; else 0
 };
 
 struct TechniqueChoice;
@@ -73,6 +74,8 @@ public:
 
     /// Lets the pass's shaders see the holes that materials cut (CUTOUTS), where there are any.
     void cutHoles(Pass& pass) const;
+    /// Tells the pass's shaders how the visibility buffer names triangles.
+    void defineSeen(Pass& pass) const;
 
     /// `rate`: of its passes that do not say.
     void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) { slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate; }

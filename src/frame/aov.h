@@ -45,7 +45,7 @@ inline constexpr Aov materialId{"material_id", Format::r32ui, {"id"}, false, fal
 
 // Between passes only: nobody can ask for these.
 inline constexpr Aov lineRecord{"line_record", Format::r32ui, {"id"}, false, false, "Number of what the object or its material says about its lines; 0 for nothing."};
-inline constexpr Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, false, false, "Instance, counted from 1, and triangle; on the fine raster. Only of the exact geometry."};
+inline constexpr Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, false, false, "Instance, counted from 1, and triangle (one number where both fit, see shaders/lib/seen.glsl); on the fine raster. Only of the exact geometry."};
 
 inline constexpr const Aov* all[] = {&beauty, &shade, &albedo, &ambientOcclusion, &ambientOcclusionRaw, &ambientOcclusionError, &depthTangent, &edges, &normal, &normalGeometric, &depth, &position, &objectId, &materialId};
 

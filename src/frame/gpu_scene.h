@@ -24,6 +24,7 @@ struct DrawInstance {
     std::span<const std::string> parts;     ///< names of the mesh's parts
     std::vector<std::uint32_t> lineRecords; ///< beside materials: index into DrawScene::lineRecords
     bool hasColors = false;                 ///< the mesh has vertex colours
+    std::uint64_t mostTriangles = 0;        ///< that may be made of the mesh, sections aside
 };
 
 /// A plane that cuts the scene open. Beyond it, on its normal's side, nothing is drawn.

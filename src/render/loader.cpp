@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <map>
 
 namespace limn {
@@ -245,6 +246,11 @@ static std::vector<std::uint32_t> resolveSections(const Scene& scene, const Fram
     return numbers;
 }
 
+/// How many triangles a mesh may become. Rates of edges are bounded by the level; where they differ around a face, twice as many as of a grid is ample.
+static std::uint64_t mostTriangles(const MeshSource& source, const PolyMesh& poly) {
+    return std::uint64_t{poly.cornerPosition.size()} << (source.subdivision.present ? 2 * source.subdivision.level : 0);
+}
+
 DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request) {
     const Scene& scene = loaded.scene;
     const std::string& cameraName = request.camera;
@@ -259,7 +265,7 @@ DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request) {
         const Instance instance = keyed.at(frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = loaded.meshes[mesh].poly;
-        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}, !poly.colors.empty()};
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name, poly.partNames, {}, !poly.colors.empty(), mostTriangles(scene.meshes[mesh], poly)};
         for (const auto& name : poly.materialNames) placed.materials.push_back(instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
         placed.materials.insert(placed.materials.end(), cutMaterials.begin(), cutMaterials.end());
         for (const auto material : placed.materials) placed.lineRecords.push_back(lineRecord(draw, instance, materials.materials[material]));
@@ -310,6 +316,11 @@ SceneFacts sceneFacts(const DrawScene& scene) {
             facts.shiny = facts.shiny || (material.shininess > 1 && material.specular > 0);
             facts.vertexColors = facts.vertexColors || (instance.hasColors && material.vertexColors);
         }
+    // Steps of four, so that few scenes need shaders of their own.
+    std::uint64_t most = 1;
+    for (const auto& instance : scene.instances) most = std::max(most, instance.mostTriangles);
+    const int bits = 32 - (static_cast<int>(std::bit_width(scene.instances.size())) + 3) / 4 * 4;
+    if (!facts.sections && bits > 0 && most <= std::uint64_t{1} << bits) facts.triangleBits = bits;
     for (const auto& light : scene.lights) facts.coloredLight = facts.coloredLight || light.color.r != light.color.g || light.color.g != light.color.b;
     return facts;
 }

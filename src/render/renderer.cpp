@@ -107,7 +107,7 @@ void Renderer::prepare(const FramePlan& frame, View view) {
         if (kinds.emplace(view.findsOcclusion(), view.findsLines()).second) executor_.prepare(frame.graph, frame.ofSample(view), view);
 }
 
-void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const FramePlans& plans, std::vector<PartTime>& times) {
+void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times) {
     SceneKey key = sceneKey(config, loaded, scene, plans.sceneData());
     const auto& materials = loaded.scene.materials;
     const bool changes = std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
@@ -120,6 +120,8 @@ void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded,
     SceneMeshes made = coming.get();
     if (made.key != key) made = buildMeshes(config, loaded, scene, key);
     watch.lap("of which triangles, beyond the programs");
+    for (const auto& mesh : made.meshes)
+        if (facts.triangleBits > 0 && mesh.triangleCount() > std::size_t{1} << facts.triangleBits) throw Error(ExitCode::internal, {loaded.scene.file}, "a mesh became more triangles than were planned for", "please report this");
     times.push_back({"triangles, begun beside what is above", made.milliseconds});
     gpuScene_ = nullptr;   // gives the old one's memory back first
     gpuScene_ = std::make_unique<GpuScene>(scene, made.meshes, made.meshOf, key.needs, device_.limits(), device_.report().isSoftware);
@@ -190,7 +192,7 @@ RenderedFrame Renderer::render(const RenderConfig& config, const LoadedScene& lo
     if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
         throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x, layout.size.y, largest), "lower shadow.resolution");
     watch.lap("plan");
-    bringScene(config, loaded, scene, plans, result.times);
+    bringScene(config, loaded, scene, facts, plans, result.times);
     watch.lap("scene to the GPU");
 
     result.opaque = !config.image.transparent;

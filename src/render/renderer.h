@@ -63,7 +63,7 @@ public:
 private:
     /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings (cameras, transforms, lights).
     void prepare(const FramePlan& frame, View view);
-    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const FramePlans& plans, std::vector<PartTime>& times);
+    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times);
 
     /// What all tiles of a frame share.
     struct Frame {

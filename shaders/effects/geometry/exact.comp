@@ -5,6 +5,7 @@
 #include "frame/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
+#include "lib/seen.glsl"
 #if defined(WRITES_albedo) && defined(TEXTURED)
 #include "lib/texture.glsl"
 #endif
@@ -73,7 +74,7 @@ void writeBackground() {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
-    uvec2 id = load(visibility, (pixel + view.placeInCanvas) * view.raster + view.placeOnRaster).xy;
+    uvec2 id = decodeSeen(load(visibility, (pixel + view.placeInCanvas) * view.raster + view.placeOnRaster));
     if (id.x == 0u) {
         writeBackground();
         return;

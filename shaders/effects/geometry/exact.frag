@@ -1,4 +1,5 @@
 // Writes only which triangle is seen; exact.comp finds out everything else, once per pixel that is seen.
+#include "lib/seen.glsl"
 #ifdef CUTOUTS
 #include "frame/scene.glsl"
 #include "frame/holes.glsl"
@@ -11,5 +12,5 @@ void main() {
 #ifdef CUTOUTS
     if (isHole(seen.x - 1u, seen.y, viewPoint)) discard;
 #endif
-    visibility = seen;
+    visibility = encodeSeen(seen);
 }

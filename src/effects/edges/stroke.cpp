@@ -82,6 +82,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
     place.mask = 0;
     if (const auto visibility = graph.find(aov::visibility)) {
         place.defines.emplace_back("WITH_TRIANGLES", "");
+        graph.defineSeen(place);
         place.reads.push_back({"visibility", *visibility, 2});
     }
     if (records) {

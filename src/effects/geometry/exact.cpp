@@ -9,7 +9,7 @@ namespace limn {
 namespace geometry_exact {
 
 void build(EffectBuilder& graph, const NoParams&) {
-    const ResourceId visibility = graph.fineImage("visibility", Format::rg32ui);
+    const ResourceId visibility = graph.fineImage("visibility", graph.scene().triangleBits > 0 ? Format::r32ui : Format::rg32ui);
     const ResourceId zBuffer = graph.fineImage("z_buffer", Format::depth32f);
     Pass raster;
     raster.name = "visibility";
@@ -19,6 +19,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.needs = SceneData::positions;
     raster.note = "triangle ids only";
     graph.cutHoles(raster);
+    graph.defineSeen(raster);
     graph.add(std::move(raster));
     graph.publish(aov::visibility, visibility);
 
@@ -27,6 +28,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     resolve.reads = {{"visibility", visibility}};
     resolve.writes = publishSurfaces(graph);
     resolve.defines = surfaceDefines(graph);
+    graph.defineSeen(resolve);
     resolve.needs = SceneData::positions;
     resolve.note = "analytic, once per visible sample";
     graph.add(std::move(resolve));

@@ -1,0 +1,11 @@
+// What the visibility buffer holds: which instance is seen, counted from 1, and which of its triangles; 0 where nothing is.
+//
+// TRIANGLE_BITS: both fit into one number, whose lower bits are the triangle's.
+
+#ifdef TRIANGLE_BITS
+uint encodeSeen(uvec2 seen) { return (seen.x << TRIANGLE_BITS) | seen.y; }
+uvec2 decodeSeen(uvec4 code) { return uvec2(code.x >> TRIANGLE_BITS, code.x & ((1u << TRIANGLE_BITS) - 1u)); }
+#else
+uvec2 encodeSeen(uvec2 seen) { return seen; }
+uvec2 decodeSeen(uvec4 code) { return code.xy; }
+#endif
