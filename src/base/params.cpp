@@ -536,26 +536,4 @@ void readFields(const Node& table, Schema schema, void* object, std::vector<Trac
             errors.add({code, table.where, fmt::format("{} has no '{}'", what, field.name), plain(field.info.doc)});
 }
 
-UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema, const void* object) {
-    UniformBlock block;
-    block.glsl = fmt::format("layout(std140, binding = {}) uniform {}Block {{\n", binding, name);
-    for (const auto& field : schema) {
-        const auto& type = field.type();
-        const std::size_t at = (block.bytes.size() + type.glslAlign - 1) / type.glslAlign * type.glslAlign;
-        block.bytes.resize(at + type.glslSize);
-        type.pack(field.member_(object), block.bytes.data() + at);
-        block.glsl += fmt::format("    {} {};  // {}{}{}\n", type.glsl, field.name, field.info.unit, field.info.unit.empty() ? "" : ": ", field.info.doc);
-    }
-    block.glsl += fmt::format("}} {};\n", name);
-    block.bytes.resize((block.bytes.size() + 15) / 16 * 16);
-    return block;
-}
-
-void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words) {
-    const std::size_t elements = std::max<std::size_t>(1, (words.size() + 3) / 4), at = block.bytes.size();
-    block.glsl.insert(block.glsl.rfind('}'), fmt::format("    uvec4 {}[{}];\n", name, elements));
-    block.bytes.resize(at + elements * 16);
-    if (!words.empty()) std::memcpy(block.bytes.data() + at, words.data(), words.size_bytes());
-}
-
 }  // namespace limn

@@ -199,16 +199,4 @@ struct Keyed {
 void readFields(const Node& table, Schema schema, void* object, std::vector<Track>* tracks, std::string_view what, ErrorCollector& errors,
                 std::span<const std::string_view> alsoKnown = {}, ExitCode code = ExitCode::usage);
 
-// --- Uniform blocks -------------------------------------------------------------------------------------------------------------
-
-/// A std140 uniform block: its GLSL declaration and its bytes.
-struct UniformBlock {
-    std::string glsl;
-    std::vector<std::byte> bytes;
-};
-
-UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema, const void* object);
-/// Adds a list of numbers at the end of a block: `uvec4 NAME[]`, four to an element, so many elements as they take and at least one.
-void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words);
-
 }  // namespace limn

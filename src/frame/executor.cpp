@@ -14,16 +14,28 @@ namespace {
 // Long rows: neighbours in a row are neighbours in memory.
 constexpr glm::ivec2 kGroup(32, 8);
 
+constexpr int kMostInputs = 24;   // vectors of four that are handed on to a fragment shader; with those of three suns fewer than every device takes
+
 const Resource& resourceOf(const Graph& graph, ResourceId id) { return graph.resources[static_cast<std::size_t>(id.index)]; }
 
 /// Declarations that every shader of the pass starts with, generated from what the pass declared: a shader can touch nothing else.
-std::string prelude(const Graph& graph, const PlannedPass& planned, const UniformBlock& view) {
-    const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+std::string prelude(const Pass& pass, const View& view) {
     std::string text = "#version 450 core\n";
     for (const auto& [name, value] : pass.defines) text += fmt::format("#define {} {}\n", name, value);
     text += fmt::format("const int MASK_TILE = {};\n", kMaskTile);
-    text += view.glsl + pass.params.glsl;
+    // Known when shaders are compiled: software renderers would compute both kinds of everything.
+    text += fmt::format("const bool ORTHOGRAPHIC = {};   // parallel rays\n", view.orthographic);
     return text;
+}
+
+/// How many lights a pass reads, if they are few, and suns without shadows; else 0.
+int plainSuns(const Pass& pass) {
+    int count = 0;
+    for (const auto& [name, value] : pass.defines) {
+        if (name == "LIGHT_COUNT") count = std::stoi(value);
+        if (name == "PLACED_LIGHTS" || name == "WITH_SHADOWS") return 0;
+    }
+    return count <= 3 ? count : 0;
 }
 
 /// The images that a pass reads, each by load(name, pixel). Software renderers load from images a quarter faster than they fetch from textures, whose
@@ -47,7 +59,8 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
     const bool screen = pass.kind == Pass::Kind::compute && drawsScreen();
     const bool compute = pass.kind == Pass::Kind::compute && !screen;
     std::vector<gl::ShaderStage> stages;
-    std::string head = prelude(graph, planned, block), outputs, names;
+    const std::string head = prelude(pass, view), blocks = block.glsl() + pass.params.glsl();
+    std::string outputs, names;
     int slot = 0;
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
@@ -75,15 +88,26 @@ const gl::Program& Executor::program(const Graph& graph, const PlannedPass& plan
     if (compute) {
         // Compute passes look at the mask themselves; screen passes are drawn only where it says.
         if (pass.mask >= 0) names += fmt::format("#define IS_MASKED(pixel) (load({}, (pixel) / MASK_TILE).r == 0.0)\n", pass.reads[static_cast<std::size_t>(pass.mask)].name);
-        head += fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
-        stages.push_back({gl::ShaderStage::Kind::compute, head + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
+        const std::string place = fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
+        stages.push_back({gl::ShaderStage::Kind::compute, head + blocks + place + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
     } else if (screen) {
-        stages.push_back({gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load(pass.mask >= 0 ? "frame/tiles.vert" : "frame/screen.vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n" + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
+        const std::string place = "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n", source = shaders_.load(pass.shader + ".comp");
+        std::string vertex = "#version 450 core\n", constants = blocks;
+        if (pass.mask < 0) {
+            // For tiles this would be more work than it saves.
+            const HandedOn ofView = handOn(block, source), ofParams = handOn(pass.params, source);
+            const bool both = ofView.slots + ofParams.slots <= kMostInputs;
+            const int suns = plainSuns(pass);
+            if (suns > 0) vertex += fmt::format("#define LIGHT_COUNT {}\n", suns) + shaders_.load("frame/hand_on_suns.glsl");
+            vertex += ofView.vertex + (both ? ofParams.vertex : "") + fmt::format("void handOn() {{ handOn_view(); {} {} }}\n", both ? "handOn_" + pass.params.name + "();" : "", suns > 0 ? "handOnSuns();" : "");
+            constants = (suns > 0 ? "#define SUNS_HANDED_ON\n" : "") + ofView.fragment + (both ? ofParams.fragment : pass.params.glsl());
+        }
+        stages.push_back({gl::ShaderStage::Kind::vertex, vertex + shaders_.load(pass.mask >= 0 ? "frame/tiles.vert" : "frame/screen.vert")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + constants + place + names + readable(graph, pass, screen) + outputs + source});
     } else {
         // The vertex stage needs to know what is written, so that it hands on nothing else.
-        stages.push_back({gl::ShaderStage::Kind::vertex, head + names + shaders_.load(pass.shader + ".vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".frag")});
+        stages.push_back({gl::ShaderStage::Kind::vertex, head + blocks + names + shaders_.load(pass.shader + ".vert")});
+        stages.push_back({gl::ShaderStage::Kind::fragment, head + blocks + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".frag")});
     }
     std::string key;
     for (const auto& stage : stages) key += stage.source;
@@ -288,7 +312,7 @@ FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {
     const gl::DebugGroup group("farthest_depths");
     if (!farthestDepths_ || farthestDepths_.size() != farthest.size) farthestDepths_ = {}, farthestDepths_ = gl::Texture(Format::r32f, farthest.size, "farthest depths");
     if (!farthestProgram_)
-        farthestProgram_ = gl::Program(std::vector<gl::ShaderStage>{{gl::ShaderStage::Kind::vertex, "#version 450 core\n" + shaders_.load("frame/screen.vert")}, {gl::ShaderStage::Kind::fragment, fmt::format("#version 450 core\n#define SIDE {}\n", farthest.side) + shaders_.load("frame/farthest_depths.frag")}}, "farthest_depths");
+        farthestProgram_ = gl::Program(std::vector<gl::ShaderStage>{{gl::ShaderStage::Kind::vertex, "#version 450 core\nvoid handOn() {}\n" + shaders_.load("frame/screen.vert")}, {gl::ShaderStage::Kind::fragment, fmt::format("#version 450 core\n#define SIDE {}\n", farthest.side) + shaders_.load("frame/farthest_depths.frag")}}, "farthest_depths");
     const gl::Texture* target = &farthestDepths_;
     const gl::Framebuffer framebuffer({&target, 1}, nullptr, "farthest_depths");
     framebuffer.bind(), farthestProgram_.use();

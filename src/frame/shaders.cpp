@@ -17,9 +17,11 @@ std::string ShaderLibrary::source(const std::string& path) const {
 }
 
 std::string ShaderLibrary::load(const std::string& path) const {
+    if (const auto known = loaded_.find(path); known != loaded_.end()) return known->second;
     std::set<std::string> seen;
     std::string out;
     expand(path, seen, out);
+    if (folder_.empty()) loaded_.emplace(path, out);   // those of a folder may change
     return out;
 }
 

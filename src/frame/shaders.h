@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@ public:
     explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
     bool contains(const std::string& path) const;
-    /// The source with `#include "lib/x.glsl"` lines replaced by the file, each once. Throws Error.
+    /// The source with `#include "lib/x.glsl"` lines replaced by the file, each once. From one thread. Throws Error.
     std::string load(const std::string& path) const;
 
 private:
@@ -22,6 +23,7 @@ private:
     void expand(const std::string& path, std::set<std::string>& seen, std::string& out) const;
 
     std::filesystem::path folder_;
+    mutable std::map<std::string, std::string> loaded_;   ///< what load() gave, of sources that cannot change
 };
 
 /// Made by CMake from shaders/.

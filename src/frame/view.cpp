@@ -1,7 +1,5 @@
 #include "frame/view.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -245,10 +243,7 @@ UniformBlock viewBlock(const View& view) {
     c.near = static_cast<float>(view.near);
     c.far = static_cast<float>(view.far);
     c.clipFar = static_cast<float>(view.clipFar);
-    UniformBlock block = makeUniformBlock("view", 0, kViewConstants, &c);
-    // Known when shaders are compiled: software renderers would compute both kinds of everything.
-    block.glsl += fmt::format("const bool ORTHOGRAPHIC = {};   // parallel rays\n", view.orthographic);
-    return block;
+    return makeUniformBlock("view", 0, kViewConstants, &c);
 }
 
 }  // namespace limn

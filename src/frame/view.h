@@ -116,7 +116,7 @@ Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize);
 /// The light of a scene that has none: a sun over the camera's left shoulder.
 Light defaultSun(const Camera& camera, const SceneInfo& scene);
 
-/// The uniform block `view`, and the constant ORTHOGRAPHIC, that every shader sees.
+/// The uniform block `view` that every shader sees.
 UniformBlock viewBlock(const View& view);
 
 }  // namespace limn

@@ -4,7 +4,7 @@
 // for each single thing it writes: a texture that nobody reads is neither made nor attached.
 #pragma once
 
-#include "base/params.h"
+#include "base/uniform_block.h"
 #include "graph/format.h"
 
 #include <glm/glm.hpp>

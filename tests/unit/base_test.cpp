@@ -1,6 +1,7 @@
 #include "base/color.h"
 #include "base/in_order.h"
 #include "base/params.h"
+#include "base/uniform_block.h"
 #include "base/text.h"
 #include "config/document.h"
 
@@ -130,7 +131,25 @@ TEST(Params, uniformBlockFollowsStd140) {
     EXPECT_EQ(intAt(32), 1) << "bool is an int";
     EXPECT_EQ(intAt(40), 6) << "ivec2 aligns to 8";
     EXPECT_EQ(block.bytes.size(), 48u + 16 * 16);
-    EXPECT_NE(block.glsl.find("float a;  // m: First."), std::string::npos);
+    EXPECT_NE(block.glsl().find("float a;  // m: First."), std::string::npos);
+}
+
+TEST(Params, constantsAreHandedOnWhereTheyAreUsed) {
+    const Constants constants;
+    UniformBlock block = makeUniformBlock("params", 1, kConstants, &constants);
+    const HandedOn none = handOn(block, "float view_a = otherparams.a + params.ab;");
+    EXPECT_EQ(none.slots, 0);
+    EXPECT_TRUE(none.fragment.empty());
+    EXPECT_EQ(none.vertex, "void handOn_params() {\n}\n");
+
+    appendVectors(block, "list", std::vector<glm::vec4>(3));
+    const HandedOn some = handOn(block, "x = params.b.x + (params.d ? 1.0 : params.list[2].y);");
+    EXPECT_EQ(some.slots, 1 + 1 + 3);
+    EXPECT_NE(some.vertex.find("flat out vec3 params_b;"), std::string::npos) << some.vertex;
+    EXPECT_NE(some.vertex.find("params_d = int(paramsUniforms.d);"), std::string::npos) << some.vertex;
+    EXPECT_NE(some.fragment.find("flat in vec4[3] params_list;"), std::string::npos) << some.fragment;
+    EXPECT_NE(some.fragment.find("params = paramsConstants(params_b, params_d != 0, params_list);"), std::string::npos) << some.fragment;
+    EXPECT_EQ(some.fragment.find("params_a"), std::string::npos) << "nobody reads it";
 }
 
 TEST(Text, nearestName) {

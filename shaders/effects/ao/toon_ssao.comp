@@ -8,7 +8,8 @@
 
 // How much of a point of the kernel is hidden: 0 or 1, less where the occluder is much nearer than the radius. Written without branches, so that
 // software renderers need not walk a loop for it.
-float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 mirror, vec3 surface) {
+// `perReach`: 1 over the radius in the same units as depths.
+float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 mirror, vec3 surface, float perReach) {
     vec3 offset = reflect(kernelPoint, mirror);
     float height = dot(offset, surface);
 #ifdef HEMISPHERE
@@ -17,11 +18,9 @@ float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 
 #endif
 #ifdef RADIUS_IN_IMAGE
     ivec2 tap = clamp(pixelFrom(pixel, offset.xy * params.radiusPixels), ivec2(0), view.size - 1);
-    float reach = params.radiusPixels * pixelFootprint(centre);
     bool counts = tap != pixel;
 #else
     vec3 point = position + offset * params.radius;
-    float reach = params.radius;
     // A point behind the eye falls on no pixel.
     bool isBefore = ORTHOGRAPHIC || point.z <= -1e-3 * centre;
     ivec2 tap = pixelOf(vec3(point.xy, isBefore ? point.z : -centre));
@@ -36,7 +35,7 @@ float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 
     float share = isHidden && counts ? 1.0 : 0.0;
 #ifdef RANGE_CHECK
     // Full within the radius, gone at twice the radius.
-    share *= clamp(2.0 - (centre - there) / reach, 0.0, 1.0);
+    share *= clamp(2.0 - (centre - there) * perReach, 0.0, 1.0);
 #endif
     return share;
 }
@@ -56,8 +55,14 @@ void main() {
 #else
     vec3 surface = vec3(0, 0, 1);
 #endif
-    float hidden = 0.0;
-    for (int i = 0; i < POINT_COUNT; ++i) hidden += hiddenAt(params.kernelPoints[i].xyz, pixel, centre, position, mirror, surface);
+#ifdef RADIUS_IN_IMAGE
+    float perReach = 1.0 / (params.radiusPixels * pixelFootprint(centre));
+#else
+    float perReach = 1.0 / params.radius;
+#endif
+    // The kernel's points are part of the code: software renderers read a number from a list as slowly as one from an image.
+#define HIDDEN(point) hiddenAt(point, pixel, centre, position, mirror, surface, perReach)
+    float hidden = SUM_OVER_KERNEL(HIDDEN);
     float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(POINT_COUNT);
 #ifdef QUADRATIC
     share *= share;

@@ -9,6 +9,8 @@
 
 #include "effects/technique.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace limn {
@@ -56,34 +58,34 @@ constexpr Field kParams[] = {
 };
 
 struct Constants {
-    std::array<glm::vec4, kMaxPoints> kernelPoints{};
     float radius = 0, radiusPixels = 0;
     int deadZone = 0;
     float strength = 1;
 };
 
 constexpr Field kConstants[] = {
-    field<&Constants::kernelPoints>("kernelPoints", {.doc = "Points in the unit ball, in xyz."}),
     field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Reach in the scene."}),
     field<&Constants::radiusPixels>("radiusPixels", {.unit = "pixels", .doc = "Reach in the picture, for radius_in = \"image\"."}),
     field<&Constants::deadZone>("deadZone", {.doc = "Counts below this are no occlusion."}),
     field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
 };
 
-/// Directions on a Fibonacci spiral and lengths in an order unrelated to it, so that the few points fill the ball evenly.
 Constants derive(const Params& params, const View& view) {
-    Constants c;
-    c.radius = static_cast<float>(view.normalized(params.radius));
-    c.radiusPixels = params.imageRadius * static_cast<float>(view.imageSize.x);
-    c.deadZone = params.deadZone;
-    c.strength = params.strength;
+    return {static_cast<float>(view.normalized(params.radius)), params.imageRadius * static_cast<float>(view.imageSize.x), params.deadZone, params.strength};
+}
+
+/// The sum of what the macro `visit` makes of each point of the kernel, in GLSL. Directions on a Fibonacci spiral and lengths in an order unrelated to
+/// it, so that the few points fill the unit ball evenly.
+std::string sumOverKernel(int count) {
+    std::string sum;
     const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
-    for (int i = 0; i < params.points; ++i) {
-        const double z = 1 - 2 * (i + 0.5) / params.points, ring = std::sqrt(1 - z * z), angle = golden * i;
+    for (int i = 0; i < count; ++i) {
+        const double z = 1 - 2 * (i + 0.5) / count, ring = std::sqrt(1 - z * z), angle = golden * i;
         const double volume = std::fmod((i + 0.5) * 0.6180339887498949, 1.0);
-        c.kernelPoints[static_cast<std::size_t>(i)] = glm::vec4(glm::dvec4(ring * std::cos(angle), ring * std::sin(angle), z, 0) * std::cbrt(volume));
+        const glm::vec3 point(glm::dvec3(ring * std::cos(angle), ring * std::sin(angle), z) * std::cbrt(volume));
+        sum += fmt::format("{}visit(vec3({:.9e}, {:.9e}, {:.9e}))", i > 0 ? " + " : "", point.x, point.y, point.z);
     }
-    return c;
+    return sum;
 }
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -103,6 +105,7 @@ void build(EffectBuilder& graph, const Params& params) {
     define(params.rangeCheck, "RANGE_CHECK");
     define(params.mapping == CountMapping::quadratic, "QUADRATIC");
     pass.defines.emplace_back("POINT_COUNT", std::to_string(params.points));
+    pass.defines.emplace_back("SUM_OVER_KERNEL(visit)", sumOverKernel(params.points));
     pass.note = std::to_string(params.points) + " points per pixel";
     graph.add(std::move(pass));
     graph.publish(aov::ambientOcclusionRaw, result);

@@ -21,7 +21,6 @@ inline constexpr std::array<std::string_view, 2> enumNames<ToonSpace> = {"percep
 namespace shading_toon {
 
 constexpr int kMaxBands = 16;
-constexpr int kMaxLevels = 64;   // of the display-encoded table, which goes on above 1
 
 struct Params {
     int bands = 4;
@@ -62,35 +61,31 @@ constexpr Field kLightConstants[] = {
 };
 
 struct BandConstants {
-    std::array<glm::vec4, kMaxLevels> bands{};
-    int count = 0;
     float edgeSoftness = 0;
 };
 constexpr Field kBandConstants[] = {
-    field<&BandConstants::bands>("bands", {.doc = "rgb: factor on the object's colour; a: intensity at which the band begins."}),
     field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "pixels", .doc = "Width of the transition between bands."}),
 };
 
-BandConstants deriveBands(const Params& params) {
-    BandConstants c;
-    c.edgeSoftness = params.edgeSoftness;
+/// rgb: factor on the object's colour; a: intensity at which the band begins.
+std::vector<glm::vec4> deriveBands(const Params& params) {
+    std::vector<glm::vec4> bands;
     if (params.space == ToonSpace::display) {
         // floor(n·I)/n without an upper end: the levels above 1 clip when the colour is encoded.
-        c.count = 4 * params.bands;   // up to four times the full colour
-        for (int i = 0; i < c.count; ++i) {
+        for (int i = 0; i < 4 * params.bands; ++i) {   // up to four times the full colour
             const float level = static_cast<float>(i) / static_cast<float>(params.bands);
-            c.bands[static_cast<std::size_t>(i)] = glm::vec4(glm::vec3(level), level);
+            bands.emplace_back(glm::vec3(level), level);
         }
-        return c;
+        return bands;
     }
-    c.count = params.ramp.empty() ? params.bands : static_cast<int>(params.ramp.size());
-    for (int i = 0; i < c.count; ++i) {
-        const float n = static_cast<float>(c.count), step = static_cast<float>(i);
+    const int count = params.ramp.empty() ? params.bands : static_cast<int>(params.ramp.size());
+    for (int i = 0; i < count; ++i) {
+        const float n = static_cast<float>(count), step = static_cast<float>(i);
         const float level = srgbToLinear(params.floorLevel + (1 - params.floorLevel) * (n > 1 ? step / (n - 1) : 1));
         const Color color = params.ramp.empty() ? Color{level, level, level} : params.ramp[static_cast<std::size_t>(i)];
-        c.bands[static_cast<std::size_t>(i)] = {color.r, color.g, color.b, srgbToLinear(step / n)};
+        bands.emplace_back(color.r, color.g, color.b, srgbToLinear(step / n));
     }
-    return c;
+    return bands;
 }
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -114,10 +109,11 @@ void build(EffectBuilder& graph, const Params& params) {
     if (params.space == ToonSpace::display) bands.defines.emplace_back("DISPLAY_ENCODED", "");
     if (colored) bands.defines.emplace_back("COLORED_LIGHT", "");
     bands.writes = {{"result", result}};
-    const BandConstants constants = deriveBands(params);
-    bands.params = paramsBlock(kBandConstants, constants);
-    bands.defines.emplace_back("BAND_COUNT", std::to_string(constants.count));
-    bands.note = std::to_string(params.ramp.empty() ? params.bands : constants.count) + " bands";
+    const auto levels = deriveBands(params);
+    bands.params = paramsBlock(kBandConstants, BandConstants{params.edgeSoftness});
+    appendVectors(bands.params, "bands", levels);
+    bands.defines.emplace_back("BAND_COUNT", std::to_string(levels.size()));
+    bands.note = std::to_string(params.ramp.empty() ? params.bands : static_cast<int>(levels.size())) + " bands";
     graph.add(std::move(bands));
     graph.publish(aov::shade, result);
 }
