@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/heap.h"
+#include "frame/pass_shaders.h"
 
 #include <fmt/format.h>
 
@@ -9,110 +10,13 @@
 #include <optional>
 
 namespace limn {
-namespace {
-
-// Long rows: neighbours in a row are neighbours in memory.
-constexpr glm::ivec2 kGroup(32, 8);
-
-constexpr int kMostInputs = 24;   // vectors of four that are handed on to a fragment shader; with those of three suns fewer than every device takes
-
-const Resource& resourceOf(const Graph& graph, ResourceId id) { return graph.resources[static_cast<std::size_t>(id.index)]; }
-
-/// Declarations that every shader of the pass starts with, generated from what the pass declared: a shader can touch nothing else.
-std::string prelude(const Pass& pass, const View& view) {
-    std::string text = "#version 450 core\n";
-    for (const auto& [name, value] : pass.defines) text += fmt::format("#define {} {}\n", name, value);
-    text += fmt::format("const int MASK_TILE = {};\n", kMaskTile);
-    // Known when shaders are compiled: software renderers would compute both kinds of everything.
-    text += fmt::format("const bool ORTHOGRAPHIC = {};   // parallel rays\n", view.orthographic);
-    return text;
-}
-
-/// How many lights a pass reads, if they are few, and suns without shadows; else 0.
-int plainSuns(const Pass& pass) {
-    int count = 0;
-    for (const auto& [name, value] : pass.defines) {
-        if (name == "LIGHT_COUNT") count = std::stoi(value);
-        if (name == "PLACED_LIGHTS" || name == "WITH_SHADOWS") return 0;
-    }
-    return count <= 3 ? count : 0;
-}
-
-/// The images that a pass reads, each by load(name, pixel). Software renderers load from images a quarter faster than they fetch from textures, whose
-/// levels they look up for every pixel; what cannot be an image (depth) is a texture everywhere.
-std::string readable(const Graph& graph, const Pass& pass, bool asImages) {
-    std::string text = asImages ? "#define load(image, pixel) imageLoad(image, pixel)\n" : "#define load(image, pixel) texelFetch(image, pixel, 0)\n";
-    int unit = 0;
-    for (const auto& read : pass.reads) {
-        const FormatInfo format = info(resourceOf(graph, read.resource).format);
-        if (asImages && !format.glslImage.empty()) text += fmt::format("layout(binding = {}, {}) uniform readonly {}image2D {};\n", unit++, format.glslImage, format.glslPrefix, read.name);
-        else text += fmt::format("layout(binding = {}) uniform {}sampler2D {};\n", unit++, format.glslPrefix, read.name);
-    }
-    return text;
-}
-
-}  // namespace
 
 const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block) {
-    const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-    const int samples = view.samplesAt(pass.rate);   // that a mean is made of
-    const bool screen = pass.kind == Pass::Kind::compute && drawsScreen();
-    const bool compute = pass.kind == Pass::Kind::compute && !screen;
-    std::vector<gl::ShaderStage> stages;
-    const std::string head = prelude(pass, view), blocks = block.glsl() + pass.params.glsl();
-    std::string outputs, names;
-    int slot = 0;
-    for (std::size_t w = 0; w < pass.writes.size(); ++w) {
-        if (!planned.writes[w]) continue;
-        const Write& write = pass.writes[w];
-        const FormatInfo format = info(resourceOf(graph, write.resource).format);
-        names += fmt::format("#define WRITES_{}\n", write.name);
-        if (format.glslImage.empty()) continue;   // depth
-        constexpr std::string_view floats[] = {"", "float", "vec2", "vec3", "vec4"}, integers[] = {"", "uint", "uvec2", "uvec3", "uvec4"};
-        constexpr std::string_view swizzles[] = {"", "x", "xy", "xyz", "xyzw"};
-        const auto channels = static_cast<std::size_t>(format.channels);
-        const auto type = (format.glslPrefix == "u" ? integers : floats)[channels], wide = (format.glslPrefix == "u" ? integers : floats)[4];
-        if (compute) {
-            outputs += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", slot++, format.glslImage, write.mean ? "" : "writeonly", format.glslPrefix, write.name);
-            const std::string place = "ivec2(gl_GlobalInvocationID.xy)";
-            const std::string value = write.mean ? fmt::format("v * (1.0 / {}.0) + (view.sampleNumber > 0 ? imageLoad({}, {}) : vec4(0))", samples, write.name, place) : "v";
-            outputs += fmt::format("void write_{0}({1} v) {{ imageStore({0}, {2}, {3}); }}\n", write.name, wide, place, value);
-        } else if (screen) {   // sums are made by blending
-            const std::string value = write.mean ? fmt::format("(v * (1.0 / {}.0))", samples) : "v";
-            outputs += fmt::format("layout(location = {0}) out {1} out_{2};\nvoid write_{2}({3} v) {{ out_{2} = {5}.{4}; }}\n", slot++, type, write.name, wide, swizzles[channels], value);
-        } else {
-            outputs += fmt::format("layout(location = {}) out {} {};\n", slot++, type, write.name);
-        }
-    }
-    if (!compute || pass.mask < 0) names += "#define IS_MASKED(pixel) false\n";
-    if (compute) {
-        // Compute passes look at the mask themselves; screen passes are drawn only where it says.
-        if (pass.mask >= 0) names += fmt::format("#define IS_MASKED(pixel) (load({}, (pixel) / MASK_TILE).r == 0.0)\n", pass.reads[static_cast<std::size_t>(pass.mask)].name);
-        const std::string place = fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\nivec2 thisPixel() {{ return ivec2(gl_GlobalInvocationID.xy); }}\n", kGroup.x, kGroup.y);
-        stages.push_back({gl::ShaderStage::Kind::compute, head + blocks + place + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".comp")});
-    } else if (screen) {
-        const std::string place = "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n", source = shaders_.load(pass.shader + ".comp");
-        std::string vertex = "#version 450 core\n", constants = blocks;
-        if (pass.mask < 0) {
-            // For tiles this would be more work than it saves.
-            const HandedOn ofView = handOn(block, source), ofParams = handOn(pass.params, source);
-            const bool both = ofView.slots + ofParams.slots <= kMostInputs;
-            const int suns = plainSuns(pass);
-            if (suns > 0) vertex += fmt::format("#define LIGHT_COUNT {}\n", suns) + shaders_.load("frame/hand_on_suns.glsl");
-            vertex += ofView.vertex + (both ? ofParams.vertex : "") + fmt::format("void handOn() {{ handOn_view(); {} {} }}\n", both ? "handOn_" + pass.params.name + "();" : "", suns > 0 ? "handOnSuns();" : "");
-            constants = (suns > 0 ? "#define SUNS_HANDED_ON\n" : "") + ofView.fragment + (both ? ofParams.fragment : pass.params.glsl());
-        }
-        stages.push_back({gl::ShaderStage::Kind::vertex, vertex + shaders_.load(pass.mask >= 0 ? "frame/tiles.vert" : "frame/screen.vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + constants + place + names + readable(graph, pass, screen) + outputs + source});
-    } else {
-        // The vertex stage needs to know what is written, so that it hands on nothing else.
-        stages.push_back({gl::ShaderStage::Kind::vertex, head + blocks + names + shaders_.load(pass.shader + ".vert")});
-        stages.push_back({gl::ShaderStage::Kind::fragment, head + blocks + names + readable(graph, pass, screen) + outputs + shaders_.load(pass.shader + ".frag")});
-    }
+    const auto stages = shadersOf(graph, planned, view, block, drawsScreen() ? ComputeAs::drawings : ComputeAs::shaders, shaders_);
     std::string key;
     for (const auto& stage : stages) key += stage.source;
     auto it = programs_.find(key);
-    if (it == programs_.end()) it = programs_.emplace(key, gl::Program(stages, pass.name)).first;
+    if (it == programs_.end()) it = programs_.emplace(key, gl::Program(stages, graph.passes[static_cast<std::size_t>(planned.pass)].name)).first;
     return it->second;
 }
 
@@ -215,7 +119,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
         image.bindImage(slot++, pass.writes[w].mean ? gl::Access::readWrite : gl::Access::write);
         size = glm::max(size, image.size());
     }
-    gl::dispatch(size, kGroup);
+    gl::dispatch(size, kWorkGroup);
 }
 
 void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays) {
