@@ -113,7 +113,7 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     }
     // Only as often as some pixel of those that are drawn together needs.
     do {
-        int i = findLSB(candidates);
+        int i = max(findLSB(candidates), 0);
         bool isNumbered = i < 2;
         uvec2 other = seenAt(pixel + (i < 4 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across));
         if (isNumbered) other = uvec2(seen.x, i == 0 ? seen.y - 1u : seen.y + 1u);

@@ -183,9 +183,9 @@ def vertex_colors(mesh, name):
     return [tuple(c / max(1, count) for c in total) if count else (1.0, 1.0, 1.0) for total, count in zip(sums, counts)], differ
 
 
-def same_but_for_rounding(shape, other):
+def same_but_for_rounding(shape, other, largest):
     """Are coordinates equal to two units in the last place of the largest? Objects that Blender turned as it added them differ by that much."""
-    room = 2.0 ** -22 * max(max(map(abs, shape)), max(map(abs, other)))
+    room = 2.0 ** -22 * largest
     return len(shape) == len(other) and all(abs(a - b) <= room for a, b in zip(shape, other))
 
 
@@ -507,8 +507,9 @@ class Exporter:
             shape = [c for vertex in mesh.vertices for c in vertex.co]
             look = ("\n".join(line for line in text.split("\n") if not line.startswith("v ")), tuple(colors or ()), subdivision_line(subsurf) if subsurf else "")
             if not known and not moving:
+                largest = max(map(abs, shape))
                 for other in self.by_look.get(look, []):
-                    if same_but_for_rounding(shape, other["shape"]):
+                    if same_but_for_rounding(shape, other["shape"], largest):
                         self.meshes[key] = other   # the same under another name: once is enough
                         return other["name"]
             if not known:

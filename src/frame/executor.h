@@ -22,7 +22,7 @@ class Executor {
 public:
     Executor(const gl::Device& device, const ShaderLibrary& shaders) : device_(device), shaders_(shaders) {}
 
-    /// Compiles every program that the plan needs.
+    /// Compiles the programs of the passes that run in the plan.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
     /// Draws one sample of a frame: the passes that run in its plan. Samples must come in order. With `measure`, adds each pass's GPU time to

@@ -7,7 +7,7 @@ namespace {
 
 using Kind = gl::ShaderStage::Kind;
 
-constexpr int kMostInputs = 24;   // vectors of four that are handed on to a fragment shader; with those of three suns fewer than every device takes
+constexpr int kMostInputs = 24;   // vectors of four that are handed on to a fragment shader; with those of three suns fewer than the 32 of Mesa's software renderers
 
 FormatInfo formatOf(const Graph& graph, ResourceId id) { return info(graph.resources[static_cast<std::size_t>(id.index)].format); }
 
@@ -115,7 +115,7 @@ std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& pl
     const std::string place = "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n#define IS_MASKED(pixel) false\n";
     if (hasMask)   // to hand constants on for each tile would be more work than it saves
         return {{Kind::vertex, "#version 450 core\n" + library.load("frame/tiles.vert")}, {Kind::fragment, begin + blocks + place + names + images + source}};
-    const HandedOn constants = handAllOn(pass, viewConstants, source, library);
+    const HandedOn constants = handAllOn(pass, viewConstants, begin + source, library);   // defines may name constants too
     return {{Kind::vertex, "#version 450 core\n" + constants.vertex + library.load("frame/screen.vert")}, {Kind::fragment, begin + constants.fragment + place + names + images + source}};
 }
 

@@ -103,25 +103,29 @@ int chooseTileSize(const RenderConfig& config, const FramePlans& plans, glm::ive
     return std::clamp((static_cast<int>(std::sqrt(pixels)) - 2 * plans.guard) / 4 * 4, 256, std::max(whole, 256));
 }
 
-/// What samples save that find neither lines nor ambient occlusion, in words; empty where there are none, or nothing is saved.
+/// What samples save that do not find anew what others do, in words; empty where there are none, or nothing is saved.
 static std::string savedSamples(const FramePlan& frame, View view) {
-    const auto findsNothing = [&] { return !view.findsLines() && !view.findsOcclusion(); };
-    int count = 0, one = -1;
+    const auto passOf = [&](const PlannedPass& planned) -> const Pass& { return frame.graph.passes[static_cast<std::size_t>(planned.pass)]; };
+    const auto runsSome = [&](Pass::Rate rate) { return std::any_of(frame.plan.passes.begin(), frame.plan.passes.end(), [&](const auto& planned) { return passOf(planned).rate == rate; }); };
+    const bool lines = runsSome(Pass::Rate::line), occlusion = runsSome(Pass::Rate::occlusion);
+    int count = 0, one = 0;
     for (view.sample = 0; view.sample < view.split.samples(); ++view.sample)
-        if (findsNothing()) one = view.sample, ++count;
-    if (count == 0) return {};
+        if (!(lines && view.findsLines()) && !(occlusion && view.findsOcclusion())) one = view.sample, ++count;
+    if (count == 0 || !(lines || occlusion)) return {};
     view.sample = one;
     const Plan narrow = frame.ofSample(view);
     std::string spared;
-    int halo = 0;
+    int halo = 0, fullHalo = 0;
     for (std::size_t i = 0; i < narrow.passes.size(); ++i) {
-        const Pass& pass = frame.graph.passes[static_cast<std::size_t>(narrow.passes[i].pass)];
+        const Pass& pass = passOf(narrow.passes[i]);
         if (pass.rate != Pass::Rate::sample) continue;
-        halo = std::max(halo, narrow.passes[i].halo);
+        halo = std::max(halo, narrow.passes[i].halo), fullHalo = std::max(fullHalo, frame.plan.passes[i].halo);
         for (std::size_t w = 0; w < pass.writes.size(); ++w)
-            if (frame.plan.passes[i].writes[w] && !(narrow.passes[i].runs && narrow.passes[i].writes[w])) spared += (spared.empty() ? "" : ", ") + frame.graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].name;
+            if (frame.plan.passes[i].writes[w] && !narrow.passes[i].writes[w]) spared += (spared.empty() ? "" : ", ") + frame.graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].name;
     }
-    return fmt::format("{} of {} find neither lines nor occlusion: {}made, {} pixels around the picture", count, view.split.samples(), spared.empty() ? "all is " : spared + " not ", halo);
+    if (spared.empty() && halo == fullHalo) return {};
+    return fmt::format("{} of {} samples find {}: {}{} pixels around the picture instead of {}", count, view.split.samples(), lines && occlusion ? "neither lines nor occlusion" : lines ? "no lines" : "no occlusion",
+                       spared.empty() ? "" : spared + " not made, ", halo, fullHalo);
 }
 
 ExplainedPlan planConfig(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize) {

@@ -246,9 +246,10 @@ static std::vector<std::uint32_t> resolveSections(const Scene& scene, const Fram
     return numbers;
 }
 
-/// How many triangles a mesh may become. Rates of edges are bounded by the level; where they differ around a face, twice as many as of a grid is ample.
+/// How many triangles a mesh may become, at most. A face of n corners becomes n grids of 2^(level - 1) squares each way; one that meets itself is first
+/// cut into n - 2 triangles, of three such grids each. Rates of edges are bounded by the level.
 static std::uint64_t mostTriangles(const MeshSource& source, const PolyMesh& poly) {
-    return std::uint64_t{poly.cornerPosition.size()} << (source.subdivision.present ? 2 * source.subdivision.level : 0);
+    return std::uint64_t{poly.cornerPosition.size()} << (source.subdivision.present ? 2 * source.subdivision.level + 1 : 0);
 }
 
 DrawScene resolveFrame(const LoadedScene& loaded, const FrameRequest& request) {

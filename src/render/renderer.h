@@ -61,8 +61,9 @@ public:
     const gl::Device& device() const { return device_; }
 
 private:
-    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings (cameras, transforms, lights).
+    /// Compiles the programs of all samples of a frame.
     void prepare(const FramePlan& frame, View view);
+    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings (cameras, transforms, lights).
     void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times);
 
     /// What all tiles of a frame share.
