@@ -15,7 +15,7 @@ struct Lighting { vec3 diffuse, highlight; };
 Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shininess, vec2 attenuation) {
     Lighting sum = Lighting(vec3(0), vec3(0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
-        vec3 towards = directionOf(i);
+        vec3 towards = lightDirection(i);
         float strength = 1.0;
 #ifdef PLACED_LIGHTS
         if (lights[i].direction.w > 0.0) {   // point or spot
@@ -35,14 +35,14 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
 #ifdef WITH_SHADOWS
         if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(load(normalGeometric, pixel).xy), towards);
 #endif
-        sum.diffuse += colorOfLight(i) * (strength * max(facing, 0.0));
+        sum.diffuse += lightColor(i) * (strength * max(facing, 0.0));
 #ifdef HIGHLIGHTS
         if (shininess > 1.0 && facing > 0.0) {
             // Opposite directions leave no half vector; there is no highlight then either.
             vec3 between = towards + eye;
             float size = length(between);
             float cosine = size > 1e-6 ? max(dot(n, between) / size, 0.0) : 0.0;
-            sum.highlight += colorOfLight(i) * (strength * pow(cosine, shininess));
+            sum.highlight += lightColor(i) * (strength * pow(cosine, shininess));
         }
 #endif
     }

@@ -15,9 +15,9 @@ layout(std140, binding = 2) uniform Lights { Light lights[LIGHT_COUNT]; };
 // What every light has. SUNS_HANDED_ON: the vertex shader has handed it on, see frame/hand_on_suns.glsl.
 #ifdef SUNS_HANDED_ON
 flat in vec4 sunDirection[LIGHT_COUNT], sunColor[LIGHT_COUNT];
-vec3 directionOf(int light) { return sunDirection[light].xyz; }
-vec3 colorOfLight(int light) { return sunColor[light].rgb; }
+vec3 lightDirection(int light) { return sunDirection[light].xyz; }
+vec3 lightColor(int light) { return sunColor[light].rgb; }
 #else
-vec3 directionOf(int light) { return lights[light].direction.xyz; }
-vec3 colorOfLight(int light) { return lights[light].color.rgb; }
+vec3 lightDirection(int light) { return lights[light].direction.xyz; }
+vec3 lightColor(int light) { return lights[light].color.rgb; }
 #endif

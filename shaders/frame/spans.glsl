@@ -90,6 +90,9 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
 }
 #endif
 
+// What is seen beside the way's ends: on both sides of its begin, then of its end.
+uvec2 seenBeside(ivec2 pixel, ivec2 way, int i) { return seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? way.yx : -way.yx)); }
+
 // How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
 //
 // The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre:
@@ -104,18 +107,17 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     if (hole <= 1.0) return hole;
 #endif
     if (!goOn) return reach;
-    ivec2 across = ivec2(way.y, way.x);
     // Candidates in the order in which they are tried: the triangle before it, the one after it, then those seen beside the way's ends.
     uint candidates = uint(seen.y > 0u) | (uint(seen.y + 1u < triangleCountOf(seen.x - 1u)) << 1);
     for (int i = 0; i < 4; ++i) {
-        uvec2 other = seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across));
+        uvec2 other = seenBeside(pixel, way, i);
         if (other.x == seen.x && other.y != seen.y && objectSeen(other) == objectSeen(seen)) candidates |= 4u << i;
     }
     // Only as often as some pixel of those that are drawn together needs.
     do {
         int i = max(findLSB(candidates), 0);
         bool isNumbered = i < 2;
-        uvec2 other = seenAt(pixel + (i < 4 ? ivec2(0) : way) + (i % 2 == 0 ? across : -across));
+        uvec2 other = seenBeside(pixel, way, max(i - 2, 0));
         if (isNumbered) other = uvec2(seen.x, i == 0 ? seen.y - 1u : seen.y + 1u);
         Triangle next = triangleOf(candidates == 0u ? seen : other);
         vec2 span = spanOf(next, pixel, way);
@@ -126,7 +128,7 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     } while (candidates != 0u);
     // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way. (Not so beyond a face seen nearly
     // edge-on, which is thin but long.)
-    vec2 beside = spanOf(end, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), across);
+    vec2 beside = spanOf(end, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), way.yx);
     if (last.y - last.x < 0.75 && beside.y - beside.x < 1.5) reach = 0.5 * (reach + 1.0);
     return reach;
 }

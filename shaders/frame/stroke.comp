@@ -91,10 +91,8 @@ void add(Seen seen) {
 void finish() {}
 #endif
 
-// Cells whose pieces may reach the pixel, row by row, counted from the pixel's own.
-ivec2 cellAt(int i) { return ivec2(i % (2 * WINDOW), i / (2 * WINDOW)) - WINDOW; }
-
-ivec2 inView(ivec2 cell) { return clamp(cell, ivec2(0), view.size - 1); }
+// Cells whose pieces may reach a pixel, row by row.
+ivec2 cellNear(ivec2 pixel, int i) { return clamp(pixel + ivec2(i % (2 * WINDOW), i / (2 * WINDOW)) - WINDOW, ivec2(0), view.size - 1); }
 
 void main() {
     ivec2 pixel = thisPixel();
@@ -105,12 +103,12 @@ void main() {
     // of them has, not through all cells.
     for (int begin = 0; begin < WINDOW * WINDOW * 4; begin += 32) {
         uint occupied = 0u;
-        for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i) occupied |= uint(load(first, inView(pixel + cellAt(begin + i))).x != 0u) << i;
+        for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i) occupied |= uint(load(first, cellNear(pixel, begin + i)).x != 0u) << i;
         bool beside = false;   // is it the turn of a cell's second piece?
         do {
-            ivec2 cell = cellAt(begin + max(findLSB(occupied), 0));
-            uvec2 one = load(first, inView(pixel + cell)).xy, two = load(second, inView(pixel + cell)).xy;
-            add(see(beside ? two : one, here - vec2(inView(pixel + cell) - pixel)));
+            ivec2 cell = cellNear(pixel, begin + max(findLSB(occupied), 0));
+            uvec2 one = load(first, cell).xy, two = load(second, cell).xy;
+            add(see(beside ? two : one, here - vec2(cell - pixel)));
             beside = !beside && hasSecond(one);
             if (!beside) occupied &= occupied - 1u;
         } while (occupied != 0u);

@@ -9,9 +9,11 @@
 namespace limn {
 namespace {
 
+std::string line(const UniformBlock::Member& member) { return fmt::format("    {} {};{}{}\n", member.type, member.name, member.comment.empty() ? "" : "  // ", member.comment); }
+
 std::string declaration(const UniformBlock& block, std::string_view instance) {
     std::string text = fmt::format("layout(std140, binding = {}) uniform {}Block {{\n", block.binding, block.name);
-    for (const auto& member : block.members) text += fmt::format("    {} {};{}{}\n", member.type, member.name, member.comment.empty() ? "" : "  // ", member.comment);
+    for (const auto& member : block.members) text += line(member);
     return text + fmt::format("}} {};\n", instance);
 }
 
@@ -64,7 +66,7 @@ HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource) {
         result.vertex += fmt::format("flat out {} {};\n", type, sent);
         assignments += fmt::format("    {} = {}({}Uniforms.{});\n", sent, isBool ? "int" : "", block.name, member.name);
         inputs += fmt::format("flat in {} {};\n", type, sent);
-        members += fmt::format("    {} {};{}{}\n", member.type, member.name, member.comment.empty() ? "" : "  // ", member.comment);
+        members += line(member);
         arguments += fmt::format("{}{}{}", arguments.empty() ? "" : ", ", sent, isBool ? " != 0" : "");
         result.slots += static_cast<int>((member.size + 15) / 16);
     }

@@ -1,6 +1,5 @@
 #include "frame/executor.h"
 
-#include "base/error.h"
 #include "base/heap.h"
 #include "frame/pass_shaders.h"
 

@@ -11,8 +11,6 @@
 
 #include "base/color.h"
 
-#include <algorithm>
-
 namespace limn {
 enum class ToonSpace { perceptual, display };
 template <>
