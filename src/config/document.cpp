@@ -106,6 +106,15 @@ Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem:
     return layered;
 }
 
+/// Does a letter beyond ASCII stand at a place of a UTF-8 text? Columns count letters.
+bool isBeyondAscii(std::string_view text, const Location& where) {
+    for (int line = 1; line < where.line; ++line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
+    for (int column = 1; !text.empty() && (column < where.column || continues(text.front())); text.remove_prefix(1))
+        if (text.size() > 1 && !continues(text[1])) ++column;
+    return !text.empty() && static_cast<unsigned char>(text.front()) >= 0x80;
+}
+
 }  // namespace
 
 Node parseDocument(std::string_view text, const std::string& name) {
@@ -113,7 +122,8 @@ Node parseDocument(std::string_view text, const std::string& name) {
     try {
         return convert(toml::parse(text, name), name);
     } catch (const toml::parse_error& error) {
-        throw Error(ExitCode::usage, place(error.source(), name), std::string(error.description()), "see https://toml.io for the syntax");
+        const Location where = place(error.source(), name);
+        throw Error(ExitCode::usage, where, std::string(error.description()), isBeyondAscii(text, where) ? "letters beyond ASCII belong into quotes, and not behind a backslash" : "see https://toml.io for the syntax");
     }
 }
 
