@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <new>
-#include <unistd.h>
 
 namespace {
 
@@ -60,9 +60,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error);
         leave(code == 0 ? ExitCode::done : ExitCode::usage);
-    } catch (const Error& error) {
-        leave(report(error));
-    } catch (const Errors& errors) {
+    } catch (const Error& error) { leave(report(error)); } catch (const Errors& errors) {
         for (const auto& error : errors.list) report(error);
         leave(errors.code());
     } catch (const std::bad_alloc&) {

@@ -22,7 +22,10 @@ std::optional<Color> parseHexColor(std::string_view text) {
     int digits[6];
     for (std::size_t i = 1; i < text.size(); ++i) {
         const char c = text[i];
-        const int value = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+        const int value = c >= '0' && c <= '9' ? c - '0'
+            : c >= 'a' && c <= 'f'             ? c - 'a' + 10
+            : c >= 'A' && c <= 'F'             ? c - 'A' + 10
+                                               : -1;
         if (value < 0) return std::nullopt;
         digits[i - 1] = value;
     }
@@ -35,7 +38,9 @@ std::optional<Color> parseHexColor(std::string_view text) {
 }
 
 std::string hexColor(const Color& linear) {
-    const auto byte = [](float value) { return static_cast<int>(std::lround(std::clamp(linearToSrgb(value), 0.0f, 1.0f) * 255)); };
+    const auto byte = [](float value) {
+        return static_cast<int>(std::lround(std::clamp(linearToSrgb(value), 0.0f, 1.0f) * 255));
+    };
     return fmt::format("#{:02x}{:02x}{:02x}", byte(linear.r), byte(linear.g), byte(linear.b));
 }
 

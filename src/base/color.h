@@ -1,4 +1,5 @@
-// Colour spaces. Everywhere inside limn colours are linear Rec.709; sRGB encoding happens once, on the way in and on the way out.
+// Colour spaces. Everywhere inside limn colours are linear Rec.709; sRGB encoding happens once, on the way in and on
+// the way out.
 #pragma once
 
 #include "base/params.h"

@@ -16,13 +16,13 @@ enum class ExitCode : int {
     done = 0,
     someFramesFailed = 1,
     outOfMemory = 33,
-    usage = 64,        ///< command line or config
-    badData = 65,      ///< scene data
+    usage = 64,    ///< command line or config
+    badData = 65,  ///< scene data
     missingInput = 66,
-    noDevice = 69,     ///< no usable GL device
+    noDevice = 69,  ///< no usable GL device
     internal = 70,
     cannotCreate = 73,
-    ioError = 74,      ///< I/O error or disk full
+    ioError = 74,  ///< I/O error or disk full
     transient = 75,
     noPermission = 77,
 };

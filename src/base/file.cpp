@@ -17,7 +17,9 @@ namespace {
 class Descriptor {
 public:
     explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() { if (fd_ >= 0) ::close(fd_); }
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
     operator int() const { return fd_; }
@@ -29,8 +31,8 @@ private:
 };
 
 Error readError(const std::filesystem::path& path, int errorNumber) {
-    return {exitCodeForRead(errorNumber), {path.string()}, fmt::format("cannot be read ({})", std::strerror(errorNumber)),
-            errorNumber == ENOENT ? "check the path" : ""};
+    return {exitCodeForRead(errorNumber), {path.string()},
+        fmt::format("cannot be read ({})", std::strerror(errorNumber)), errorNumber == ENOENT ? "check the path" : ""};
 }
 
 Error writeError(const std::filesystem::path& path, int errorNumber, std::string_view doing) {
@@ -38,7 +40,8 @@ Error writeError(const std::filesystem::path& path, int errorNumber, std::string
     if (errorNumber == ENOSPC || errorNumber == EDQUOT) remedy = "free some space; what stood there before is unharmed";
     if (errorNumber == EFBIG) remedy = "the file size is limited here (ulimit -f); what stood there before is unharmed";
     if (errorNumber == EACCES || errorNumber == EROFS) remedy = "choose another folder with --output";
-    return {exitCodeForWrite(errorNumber), {path.string()}, fmt::format("{} failed ({})", doing, std::strerror(errorNumber)), std::move(remedy)};
+    return {exitCodeForWrite(errorNumber), {path.string()},
+        fmt::format("{} failed ({})", doing, std::strerror(errorNumber)), std::move(remedy)};
 }
 
 void writeAll(int fd, std::span<const std::byte> bytes, const std::filesystem::path& path) {
@@ -60,7 +63,8 @@ void compareWith(int fd, std::span<const std::byte> bytes, const std::filesystem
         if (got < 0) throw writeError(path, errno, "reading back");
         if (got == 0) break;
         const auto count = static_cast<std::size_t>(got);
-        if (count > bytes.size() || std::memcmp(buffer.data(), bytes.data(), count) != 0) throw writeError(path, EIO, "reading back");
+        if (count > bytes.size() || std::memcmp(buffer.data(), bytes.data(), count) != 0)
+            throw writeError(path, EIO, "reading back");
         bytes = bytes.subspan(count);
     }
     if (!bytes.empty()) throw writeError(path, EIO, "reading back");
@@ -132,7 +136,9 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
     if (folderFd >= 0) ::fsync(folderFd);
 }
 
-void replaceFile(const std::filesystem::path& path, std::string_view text) { replaceFile(path, std::as_bytes(std::span(text.data(), text.size()))); }
+void replaceFile(const std::filesystem::path& path, std::string_view text) {
+    replaceFile(path, std::as_bytes(std::span(text.data(), text.size())));
+}
 
 bool hasFrameNumber(const std::filesystem::path& pattern) { return pattern.string().find('#') != std::string::npos; }
 

@@ -32,8 +32,8 @@ bool fileExists(const std::filesystem::path& path);
 /// Throws Error when the file is missing, a folder, or cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// Replaces `path` by `bytes`, or leaves everything as it was. A temporary in the same folder is written with every short write
-/// noticed, synced, read back and compared, then renamed, and the folder synced. Missing folders are made.
+/// Replaces `path` by `bytes`, or leaves everything as it was. A temporary in the same folder is written with every
+/// short write noticed, synced, read back and compared, then renamed, and the folder synced. Missing folders are made.
 /// Throws Error: 73 cannot create, 74 I/O or disk full, 77 permission.
 void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void replaceFile(const std::filesystem::path& path, std::string_view text);

@@ -2,17 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cstdlib>
-#include <limits>
 #include <malloc.h>
-#include <memory>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <cstdlib>
+#include <limits>
+#include <memory>
 #include <vector>
 
 namespace limn {
 
-constexpr std::size_t kLargestOfHeap = std::size_t{32} << 20;   // glibc's own limit for its threshold
+constexpr std::size_t kLargestOfHeap = std::size_t{32} << 20;  // glibc's own limit for its threshold
 
 void keepFreedMemory() {
     mallopt(M_MMAP_THRESHOLD, static_cast<int>(kLargestOfHeap));
@@ -29,7 +29,8 @@ void bringInPages(std::size_t bytes) {
     for (std::size_t done = 0; done < bytes; done += kBlock) blocks.emplace_back(std::malloc(kBlock), &std::free);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         if (!blocks[i]) return;
-        const auto begin = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + page - 1) / page * page, end = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + kBlock) / page * page;
+        const auto begin = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + page - 1) / page * page,
+                   end = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + kBlock) / page * page;
         madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
     });
 #else

@@ -1,4 +1,5 @@
-// Work in two steps: the first on all cores, the second on the calling thread alone, in order, each as soon as its first step is done.
+// Work in two steps: the first on all cores, the second on the calling thread alone, in order, each as soon as its
+// first step is done.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -11,11 +12,14 @@
 
 namespace limn {
 
-/// make(i) for i in [0, count), in parallel; take(i) in order on the calling thread, which makes some itself while it would have to wait. What is
-/// thrown by either comes out once everything under way has ended.
+/// make(i) for i in [0, count), in parallel; take(i) in order on the calling thread, which makes some itself while it
+/// would have to wait. What is thrown by either comes out once everything under way has ended.
 template <class Make, class Take>
 void inOrder(std::size_t count, const Make& make, const Take& take) {
-    struct State { std::atomic<bool> done = false; std::exception_ptr error; };
+    struct State {
+        std::atomic<bool> done = false;
+        std::exception_ptr error;
+    };
     std::vector<State> states(count);
     std::atomic<std::size_t> next = 0;
     const auto makeOne = [&] {
@@ -23,17 +27,23 @@ void inOrder(std::size_t count, const Make& make, const Take& take) {
         if (i >= count) return false;
         try {
             make(i);
-        } catch (...) {
-            states[i].error = std::current_exception();
-        }
+        } catch (...) { states[i].error = std::current_exception(); }
         states[i].done = true;
         states[i].done.notify_one();
         return true;
     };
     tbb::task_group helpers;
     // A group must be empty when it goes, whatever happens here.
-    struct Ending { tbb::task_group& group; std::atomic<std::size_t>& next; std::size_t count; ~Ending() { next = count, group.wait(); } } ending{helpers, next, count};
-    for (int i = 1; i < tbb::this_task_arena::max_concurrency(); ++i) helpers.run([&] { while (makeOne()) {} });
+    struct Ending {
+        tbb::task_group& group;
+        std::atomic<std::size_t>& next;
+        std::size_t count;
+        ~Ending() { next = count, group.wait(); }
+    } ending{helpers, next, count};
+    for (int i = 1; i < tbb::this_task_arena::max_concurrency(); ++i)
+        helpers.run([&] {
+            while (makeOne()) {}
+        });
     for (std::size_t i = 0; i < count; ++i) {
         while (!states[i].done)
             if (!makeOne()) states[i].done.wait(false);

@@ -14,7 +14,8 @@ namespace {
 spdlog::logger& logger() {
     static const auto instance = [] {
         const bool colour = isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
-        auto sink = std::make_shared<spdlog::sinks::ansicolor_stderr_sink_mt>(colour ? spdlog::color_mode::always : spdlog::color_mode::never);
+        auto sink = std::make_shared<spdlog::sinks::ansicolor_stderr_sink_mt>(
+            colour ? spdlog::color_mode::always : spdlog::color_mode::never);
         auto made = std::make_shared<spdlog::logger>("limn", sink);
         made->set_level(spdlog::level::info);
         made->flush_on(spdlog::level::trace);

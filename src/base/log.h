@@ -14,13 +14,21 @@ void configure(Level lowest);
 void write(Level level, std::string_view message);
 
 template <class... Args>
-void debug(fmt::format_string<Args...> text, Args&&... args) { write(Level::debug, fmt::format(text, std::forward<Args>(args)...)); }
+void debug(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::debug, fmt::format(text, std::forward<Args>(args)...));
+}
 template <class... Args>
-void info(fmt::format_string<Args...> text, Args&&... args) { write(Level::info, fmt::format(text, std::forward<Args>(args)...)); }
+void info(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::info, fmt::format(text, std::forward<Args>(args)...));
+}
 template <class... Args>
-void warning(fmt::format_string<Args...> text, Args&&... args) { write(Level::warning, fmt::format(text, std::forward<Args>(args)...)); }
+void warning(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::warning, fmt::format(text, std::forward<Args>(args)...));
+}
 /// Only for what ends the run: some farms fail a task as soon as they read the word "error".
 template <class... Args>
-void error(fmt::format_string<Args...> text, Args&&... args) { write(Level::error, fmt::format(text, std::forward<Args>(args)...)); }
+void error(fmt::format_string<Args...> text, Args&&... args) {
+    write(Level::error, fmt::format(text, std::forward<Args>(args)...));
+}
 
 }  // namespace limn::log

@@ -1,4 +1,5 @@
-// A parsed TOML value with the place it came from. Plain data, so that every layer can read settings without the TOML library.
+// A parsed TOML value with the place it came from. Plain data, so that every layer can read settings without the TOML
+// library.
 #pragma once
 
 #include "base/error.h"
@@ -21,11 +22,17 @@ struct Node {
 
     bool isTable() const { return std::holds_alternative<Table>(value); }
     bool isArray() const { return std::holds_alternative<Array>(value); }
-    bool isNumber() const { return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value); }
+    bool isNumber() const {
+        return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
+    }
     const Table& table() const { return std::get<Table>(value); }
     const Array& array() const { return std::get<Array>(value); }
     const std::string* text() const { return std::get_if<std::string>(&value); }
-    double number() const { return isNumber() ? std::holds_alternative<double>(value) ? std::get<double>(value) : static_cast<double>(std::get<std::int64_t>(value)) : 0.0; }
+    double number() const {
+        return isNumber() ? std::holds_alternative<double>(value) ? std::get<double>(value)
+                                                                  : static_cast<double>(std::get<std::int64_t>(value))
+                          : 0.0;
+    }
 
     /// The entry of a table, or null.
     const Node* find(std::string_view key) const {

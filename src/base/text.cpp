@@ -10,7 +10,8 @@
 namespace limn {
 namespace {
 
-/// Levenshtein distance in which swapping two neighbouring letters counts as one slip, since that is how people mistype.
+/// Levenshtein distance in which swapping two neighbouring letters counts as one slip, since that is how people
+/// mistype.
 int editDistance(std::string_view a, std::string_view b) {
     std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<int>(i);
@@ -18,7 +19,8 @@ int editDistance(std::string_view a, std::string_view b) {
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }
     }
     return d[a.size()][b.size()];
@@ -32,7 +34,10 @@ std::optional<std::string> nearestName(std::string_view word, std::span<const st
     std::optional<std::string> nearest;
     for (const auto& candidate : candidates) {
         const int distance = editDistance(word, candidate);
-        if (distance < best) best = distance, nearest = candidate;
+        if (distance < best) {
+            best = distance;
+            nearest = candidate;
+        }
     }
     return nearest;
 }
@@ -45,7 +50,8 @@ std::string nameRemedy(std::string_view word, std::span<const std::string> candi
 
 std::string joinOr(std::span<const std::string> words) {
     std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
     return text;
 }
 
@@ -65,7 +71,11 @@ std::string numberText(double value) {
 /// Length of the UTF-8 sequence that begins the text, or 0 where there is none.
 static std::size_t utf8Length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xc2 && byte(0) < 0xe0 ? 2 : byte(0) >= 0xe0 && byte(0) < 0xf0 ? 3 : byte(0) >= 0xf0 && byte(0) < 0xf5 ? 4 : 0;
+    const std::size_t length = byte(0) < 0x80 ? 1
+        : byte(0) >= 0xc2 && byte(0) < 0xe0   ? 2
+        : byte(0) >= 0xe0 && byte(0) < 0xf0   ? 3
+        : byte(0) >= 0xf0 && byte(0) < 0xf5   ? 4
+                                              : 0;
     if (length == 0 || length > text.size()) return 0;
     for (std::size_t i = 1; i < length; ++i)
         if ((byte(i) & 0xc0) != 0x80) return 0;
@@ -76,15 +86,17 @@ std::string jsonText(std::string_view text) {
     std::string result = "\"";
     while (!text.empty()) {
         const std::size_t length = utf8Length(text);
-        if (length == 0) {   // names in files may be in any encoding; JSON is UTF-8
+        if (length == 0) {  // names in files may be in any encoding; JSON is UTF-8
             result += "\\ufffd";
             text.remove_prefix(1);
             continue;
         }
         const char c = text.front();
         if (c == '"' || c == '\\') result += '\\';
-        if (static_cast<unsigned char>(c) < 0x20) result += fmt::format("\\u{:04x}", static_cast<int>(c));
-        else result += text.substr(0, length);
+        if (static_cast<unsigned char>(c) < 0x20)
+            result += fmt::format("\\u{:04x}", static_cast<int>(c));
+        else
+            result += text.substr(0, length);
         text.remove_prefix(length);
     }
     return result + '"';
@@ -95,7 +107,10 @@ std::string bytesText(std::uint64_t bytes) {
     const char* units[] = {"KiB", "MiB", "GiB", "TiB"};
     double amount = static_cast<double>(bytes) / 1024;
     int unit = 0;
-    while (amount >= 1024 && unit < 3) amount /= 1024, ++unit;
+    while (amount >= 1024 && unit < 3) {
+        amount /= 1024;
+        ++unit;
+    }
     return fmt::format("{:.1f} {}", amount, units[unit]);
 }
 

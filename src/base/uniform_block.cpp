@@ -9,7 +9,10 @@
 namespace limn {
 namespace {
 
-std::string line(const UniformBlock::Member& member) { return fmt::format("    {} {};{}{}\n", member.type, member.name, member.comment.empty() ? "" : "  // ", member.comment); }
+std::string line(const UniformBlock::Member& member) {
+    return fmt::format(
+        "    {} {};{}{}\n", member.type, member.name, member.comment.empty() ? "" : "  // ", member.comment);
+}
 
 std::string declaration(const UniformBlock& block, std::string_view instance) {
     std::string text = fmt::format("layout(std140, binding = {}) uniform {}Block {{\n", block.binding, block.name);
@@ -46,14 +49,19 @@ UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema,
         const std::size_t at = (block.bytes.size() + type.glslAlign - 1) / type.glslAlign * type.glslAlign;
         block.bytes.resize(at + type.glslSize);
         type.pack(field.member_(object), block.bytes.data() + at);
-        block.members.push_back({std::string(type.glsl), std::string(field.name), fmt::format("{}{}{}", field.info.unit, field.info.unit.empty() ? "" : ": ", field.info.doc), type.glslSize});
+        block.members.push_back({std::string(type.glsl), std::string(field.name),
+            fmt::format("{}{}{}", field.info.unit, field.info.unit.empty() ? "" : ": ", field.doc), type.glslSize});
     }
     block.bytes.resize((block.bytes.size() + 15) / 16 * 16);
     return block;
 }
 
-void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words) { append(block, "uvec4", name, std::as_bytes(words)); }
-void appendVectors(UniformBlock& block, std::string_view name, std::span<const glm::vec4> vectors) { append(block, "vec4", name, std::as_bytes(vectors)); }
+void appendWords(UniformBlock& block, std::string_view name, std::span<const std::uint32_t> words) {
+    append(block, "uvec4", name, std::as_bytes(words));
+}
+void appendVectors(UniformBlock& block, std::string_view name, std::span<const glm::vec4> vectors) {
+    append(block, "vec4", name, std::as_bytes(vectors));
+}
 
 HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource) {
     HandedOn result;
@@ -72,7 +80,8 @@ HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource) {
     }
     if (!members.empty()) {
         result.vertex = declaration(block, block.name + "Uniforms") + result.vertex;
-        result.fragment = fmt::format("{0}struct {1}Constants {{\n{2}}};\n{1}Constants {1} = {1}Constants({3});\n", inputs, block.name, members, arguments);
+        result.fragment = fmt::format("{0}struct {1}Constants {{\n{2}}};\n{1}Constants {1} = {1}Constants({3});\n",
+            inputs, block.name, members, arguments);
     }
     result.vertex += fmt::format("void handOn_{}() {{\n{}}}\n", block.name, assignments);
     return result;

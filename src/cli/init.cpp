@@ -28,15 +28,23 @@ ExitCode run(const std::string& model, const std::string& folderText) {
     const std::string name = std::filesystem::path(model).stem().string();
     const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
     for (const auto& path : {scenePath, configPath})
-        if (std::filesystem::exists(path)) throw Error(ExitCode::cannotCreate, {path.string()}, "exists already", "choose another folder with --output, or move the file away");
+        if (std::filesystem::exists(path))
+            throw Error(ExitCode::cannotCreate, {path.string()}, "exists already",
+                "choose another folder with --output, or move the file away");
 
     std::error_code ignored;
-    const auto relative = std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
+    const auto relative =
+        std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
     std::string materials;
     for (const auto& material : loaded.meshes.front().poly.materialNames)
-        if (!material.empty()) materials += fmt::format("#\n# [[material]]              # replaces the material of that name\n# name = {}\n# color = \"#d89c7a\"\n# shininess = 40           # a highlight; none at 1 or below\n", tomlText(material));
+        if (!material.empty())
+            materials += fmt::format(
+                "#\n# [[material]]              # replaces the material of that name\n# name = {}\n# color = "
+                "\"#d89c7a\"\n# shininess = 40           # a highlight; none at 1 or below\n",
+                tomlText(material));
     const auto& light = scene.lights.front();
-    replaceFile(scenePath, fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
+    replaceFile(scenePath,
+        fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
 up = "y"                     # or "z"
 
 [[mesh]]
@@ -62,8 +70,13 @@ direction = {4}
 color = "#ffffff"
 intensity = 1
 shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
-{5})", tomlText(name), tomlText(relative.empty() ? std::filesystem::absolute(model).string() : relative.string()), vectorText(scene.camera.position), vectorText(scene.camera.lookAt), vectorText(light.direction), materials));
-    replaceFile(configPath, fmt::format(R"(# A picture: how to draw the scene. A section that is not there is an effect that is not there, at no cost.
+{5})",
+            tomlText(name), tomlText(relative.empty() ? std::filesystem::absolute(model).string() : relative.string()),
+            vectorText(scene.camera.position), vectorText(scene.camera.lookAt), vectorText(light.direction),
+            materials));
+    replaceFile(configPath,
+        fmt::format(
+            R"(# A picture: how to draw the scene. A section that is not there is an effect that is not there, at no cost.
 # See what will run with:  limn plan {0}
 scene = "scene.toml"
 camera = "main"
@@ -72,7 +85,8 @@ camera = "main"
 [output]
 path = {2}                   # .png .jpg .tif, or .exr with every AOV in one file
 aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal depth position object_id material_id ...
-)", configPath.string(), quickstartStyle(), tomlText(name + ".png")));
+)",
+            configPath.string(), quickstartStyle(), tomlText(name + ".png")));
     log::info("Saved: '{}'", scenePath.string());
     log::info("Saved: '{}'", configPath.string());
     log::info("draw it with:  limn render {}", configPath.string());

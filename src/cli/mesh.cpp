@@ -23,11 +23,11 @@ ExitCode run(const Options& options) {
     for (const auto& file : options.files) {
         try {
             const MeshFacts facts = inspectMesh(file);
-            if (options.format == "json") json += (json.empty() ? "" : ",\n") + meshFactsJson(facts);
-            else fmt::print("{}{}", file == options.files.front() ? "" : "\n", meshFactsText(facts));
-        } catch (const Error& error) {
-            errors.add(error);
-        } catch (const Errors& list) {
+            if (options.format == "json")
+                json += (json.empty() ? "" : ",\n") + meshFactsJson(facts);
+            else
+                fmt::print("{}{}", file == options.files.front() ? "" : "\n", meshFactsText(facts));
+        } catch (const Error& error) { errors.add(error); } catch (const Errors& list) {
             for (const auto& error : list.list) errors.add(error);
         }
     }

@@ -30,13 +30,15 @@ ExitCode runPlan(const PlanOptions& options) {
         maxTextureSize = std::min(renderer.device().limits().maxTextureSize, renderer.device().limits().maxViewport);
         RenderOptions measured;
         measured.measure = true;
-        renderer.render(config, loaded, frame, {});   // warms up: programs, textures
+        renderer.render(config, loaded, frame, {});  // warms up: programs, textures
         renderer.render(config, loaded, frame, measured);
         for (const auto& pass : renderer.passTimes()) milliseconds.push_back(pass.milliseconds);
     }
     ExplainedPlan plan = planConfig(config, loaded, frame, maxTextureSize);
     if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all samples of one frame");
-    const auto format = options.format == "json" ? PlanFormat::json : options.format == "dot" ? PlanFormat::dot : PlanFormat::text;
+    const auto format = options.format == "json" ? PlanFormat::json
+        : options.format == "dot"                ? PlanFormat::dot
+                                                 : PlanFormat::text;
     fmt::print("{}", explain(plan.frame.graph, plan.frame.plan, format, plan.facts, milliseconds));
     return ExitCode::done;
 }
@@ -49,13 +51,13 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
             LoadedScene loaded = loadScene(config);
             const auto& meshes = loaded.scene.meshes;
             if (std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.perFrame; }))
-                for (std::int64_t frame = loaded.scene.firstFrame(); loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame) goToFrame(loaded, static_cast<int>(frame));
+                for (std::int64_t frame = loaded.scene.firstFrame();
+                     loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame)
+                    goToFrame(loaded, static_cast<int>(frame));
             goToFrame(loaded, loaded.scene.firstFrame());
             static_cast<void>(planConfig(config, loaded, loaded.scene.firstFrame()));
             log::info("{}: fine", path);
-        } catch (const Error& error) {
-            errors.add(error);
-        } catch (const Errors& several) {
+        } catch (const Error& error) { errors.add(error); } catch (const Errors& several) {
             for (const auto& error : several.list) errors.add(error);
         }
     }
@@ -69,11 +71,17 @@ void addPlan(CLI::App& app, Chosen& chosen) {
     auto options = std::make_shared<PlanOptions>();
     auto* command = app.add_subcommand("plan", "Show what would run, what was culled and why");
     command->add_option("CONFIG", options->config, "Config file, or an OBJ file")->required();
-    command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
-    command->add_option("--subdivide", options->overrides.subdivide, "Take OBJ files as subdivision cages of this level")->type_name("N")->check(CLI::Range(0, 10));
+    command
+        ->add_option("--subdivide", options->overrides.subdivide, "Take OBJ files as subdivision cages of this level")
+        ->type_name("N")
+        ->check(CLI::Range(0, 10));
     command->add_option("--frame", options->frame, "Frame to plan; the first declared one without it")->type_name("N");
-    command->add_option("--format", options->format, "text, json or dot")->check(CLI::IsMember({"text", "json", "dot"}));
+    command->add_option("--format", options->format, "text, json or dot")
+        ->check(CLI::IsMember({"text", "json", "dot"}));
     command->add_flag("--measure", options->measure, "Draw a frame and add the milliseconds of each pass");
     options->device.add(*command);
     command->callback([options, &chosen] { chosen = [options] { return runPlan(*options); }; });
@@ -82,9 +90,12 @@ void addPlan(CLI::App& app, Chosen& chosen) {
 void addCheck(CLI::App& app, Chosen& chosen) {
     auto configs = std::make_shared<std::vector<std::string>>();
     auto overrides = std::make_shared<ConfigOverrides>();
-    auto* command = app.add_subcommand("check", "Validate configs, scenes and meshes without drawing; all problems at once");
+    auto* command =
+        app.add_subcommand("check", "Validate configs, scenes and meshes without drawing; all problems at once");
     command->add_option("CONFIG", *configs, "Config files")->required();
-    command->add_option("--set", overrides->settings, "Change a setting")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command->add_option("--set", overrides->settings, "Change a setting")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     command->callback([=, &chosen] { chosen = [=] { return runCheck(*configs, *overrides); }; });
 }
 

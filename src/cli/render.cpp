@@ -38,17 +38,24 @@ PixelRect parseCrop(const std::string& text, glm::ivec2 size) {
     for (int i = 0; i < 4; ++i) {
         const auto [next, status] = std::from_chars(at, end, *numbers[i]);
         const bool comma = next < end && *next == ',';
-        if (status != std::errc() || (i < 3 ? !comma : next != end)) throw Error(ExitCode::usage, {fmt::format("--crop {}", text)}, "this is not X,Y,W,H", "write for example --crop 100,50,320,200, in pixels from the upper left");
+        if (status != std::errc() || (i < 3 ? !comma : next != end))
+            throw Error(ExitCode::usage, {fmt::format("--crop {}", text)}, "this is not X,Y,W,H",
+                "write for example --crop 100,50,320,200, in pixels from the upper left");
         at = next + 1;
     }
-    if (rect.origin.x < 0 || rect.origin.y < 0 || rect.size.x < 1 || rect.size.y < 1 || rect.size.x > size.x - rect.origin.x || rect.size.y > size.y - rect.origin.y)
-        throw Error(ExitCode::usage, {fmt::format("--crop {}", text)}, fmt::format("the rectangle does not lie in the picture of {}×{}", size.x, size.y), "");
+    if (rect.origin.x < 0 || rect.origin.y < 0 || rect.size.x < 1 || rect.size.y < 1
+        || rect.size.x > size.x - rect.origin.x || rect.size.y > size.y - rect.origin.y)
+        throw Error(ExitCode::usage, {fmt::format("--crop {}", text)},
+            fmt::format("the rectangle does not lie in the picture of {}×{}", size.x, size.y), "");
     return rect;
 }
 
 /// "12", "1-100", "1-100x2", "1,5,9-12", "10-1", "-5--1".
 std::vector<int> parseFrames(const std::string& text) {
-    const auto fail = [&]() -> int { throw Error(ExitCode::usage, {fmt::format("--frames {}", text)}, "this is no list of frames", "write for example 12, 1-100, 1-100x2 or 1,5,9-12"); };
+    const auto fail = [&]() -> int {
+        throw Error(ExitCode::usage, {fmt::format("--frames {}", text)}, "this is no list of frames",
+            "write for example 12, 1-100, 1-100x2 or 1,5,9-12");
+    };
     std::vector<int> frames;
     const char* at = text.data();
     const char* const end = at + text.size();
@@ -71,7 +78,8 @@ std::vector<int> parseFrames(const std::string& text) {
             }
         }
         if (step < 1 || std::abs(static_cast<long>(last) - first) / step > 10'000'000) fail();
-        for (int f = first; first <= last ? f <= last : f >= last; f += first <= last ? step : -step) frames.push_back(f);
+        for (int f = first; first <= last ? f <= last : f >= last; f += first <= last ? step : -step)
+            frames.push_back(f);
         if (at == end) return frames;
         if (*at++ != ',') fail();
     }
@@ -82,7 +90,8 @@ int threadBudget(int asked) {
     if (asked > 0) return asked;
     for (const char* variable : {"SLURM_CPUS_ON_NODE", "CUE_THREADS"})
         if (const char* text = std::getenv(variable))
-            if (const auto value = parseNumber(text); value && *value >= 1 && *value <= 4096) return static_cast<int>(*value);
+            if (const auto value = parseNumber(text); value && *value >= 1 && *value <= 4096)
+                return static_cast<int>(*value);
     cpu_set_t set;
     return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
 }
@@ -96,9 +105,14 @@ std::filesystem::path outputPath(const RenderConfig& config, const std::string& 
         several = false;
     }
     std::error_code unknown;
-    if (std::filesystem::is_directory(text, unknown) || text.ends_with('/')) return std::filesystem::path(text) / config.output.path.filename();
-    if (several) throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "several configs would write the same file", "put {config} into the path, or name a folder");
-    if (!fileFormat(text)) throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
+    if (std::filesystem::is_directory(text, unknown) || text.ends_with('/'))
+        return std::filesystem::path(text) / config.output.path.filename();
+    if (several)
+        throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "several configs would write the same file",
+            "put {config} into the path, or name a folder");
+    if (!fileFormat(text))
+        throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "this is no picture file",
+            "end the path in .png, .jpg, .tif or .exr");
     return text;
 }
 
@@ -111,7 +125,8 @@ struct Job {
     std::future<void> loading;
 };
 
-void appendStats(std::string& stats, const std::filesystem::path& file, int frame, const RenderedFrame& rendered, double writeMs, double totalMs) {
+void appendStats(std::string& stats, const std::filesystem::path& file, int frame, const RenderedFrame& rendered,
+    double writeMs, double totalMs) {
     if (!stats.empty()) stats += ",\n";
     stats += fmt::format("  {{\"file\": {}, \"frame\": {}, \"parts\": {{", jsonText(file.string()), frame);
     for (const auto& part : rendered.times) stats += fmt::format("\"{}\": {:.2f}, ", part.name, part.milliseconds);
@@ -119,9 +134,12 @@ void appendStats(std::string& stats, const std::filesystem::path& file, int fram
 }
 
 using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
-std::vector<int> framesOf(const RenderConfig& config, const std::string& asked, const std::optional<FrameRange>& declared) {
+std::vector<int> framesOf(
+    const RenderConfig& config, const std::string& asked, const std::optional<FrameRange>& declared) {
     if (!asked.empty()) return parseFrames(asked);
     if (!declared && !config.frames) return {1};
     const FrameRange range = config.frames ? *config.frames : *declared;
@@ -136,7 +154,8 @@ ExitCode run(const Options& options) {
     std::optional<tbb::global_control> limit;
     if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     gl::DeviceOptions deviceOptions = options.device.options;
-    if (options.threads > 0 || std::getenv("SLURM_CPUS_ON_NODE") || std::getenv("CUE_THREADS")) deviceOptions.threads = threads;
+    if (options.threads > 0 || std::getenv("SLURM_CPUS_ON_NODE") || std::getenv("CUE_THREADS"))
+        deviceOptions.threads = threads;
 
     // Everything that the configs alone can tell comes out before anything is drawn.
     ErrorCollector errors;
@@ -147,12 +166,13 @@ ExitCode run(const Options& options) {
             job.output = outputPath(job.config, options.output, options.configs.size() > 1);
             for (const auto& other : jobs)
                 if (other.output.lexically_normal() == job.output.lexically_normal())
-                    throw Error(ExitCode::usage, {path}, fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()), "put {config} into --output, or give each its own output.path");
+                    throw Error(ExitCode::usage, {path},
+                        fmt::format(
+                            "would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()),
+                        "put {config} into --output, or give each its own output.path");
             if (!options.crop.empty()) static_cast<void>(parseCrop(options.crop, job.config.image.size));
             jobs.push_back(std::move(job));
-        } catch (const Error& error) {
-            errors.add(error);
-        } catch (const Errors& several) {
+        } catch (const Error& error) { errors.add(error); } catch (const Errors& several) {
             for (const auto& error : several.list) errors.add(error);
         }
     }
@@ -163,9 +183,11 @@ ExitCode run(const Options& options) {
         needsModule = needsModule || format == FileFormat::jpeg || format == FileFormat::tiff;
     }
     if (needsModule) preloadImageLibrary();
-    // The next scene loads while the one before is drawn. The first one loads while the device starts, and is tessellated as far as it gets.
+    // The next scene loads while the one before is drawn. The first one loads while the device starts, and is
+    // tessellated as far as it gets.
     const auto startLoading = [&](std::size_t i) {
-        if (i < jobs.size()) jobs[i].loading = std::async(std::launch::async, [&job = jobs[i]] { job.loaded = loadScene(job.config); });
+        if (i < jobs.size())
+            jobs[i].loading = std::async(std::launch::async, [&job = jobs[i]] { job.loaded = loadScene(job.config); });
     };
     std::promise<void> firstLoaded;
     jobs.front().loading = firstLoaded.get_future();
@@ -179,7 +201,9 @@ ExitCode run(const Options& options) {
         firstLoaded.set_value();
         const auto& meshes = job.loaded.scene.meshes;
         const bool perFrame = std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.perFrame; });
-        return perFrame ? SceneMeshes() : buildMeshes(job.config, job.loaded, framesOf(job.config, options.frames, job.loaded.scene.frames).front());
+        return perFrame ? SceneMeshes()
+                        : buildMeshes(job.config, job.loaded,
+                            framesOf(job.config, options.frames, job.loaded.scene.frames).front());
     });
     Renderer renderer(deviceOptions, options.device.shaderFolder);
     const auto& device = renderer.device().report();
@@ -203,16 +227,20 @@ ExitCode run(const Options& options) {
         } catch (...) {
             startLoading(j + 1);
             if (!options.keepGoing) throw;
-            try { throw; }
-            catch (const Errors& several) { for (const auto& error : several.list) failFrame(error); }
-            catch (const Error& error) { failFrame(error); }
+            try {
+                throw;
+            } catch (const Errors& several) {
+                for (const auto& error : several.list) failFrame(error);
+            } catch (const Error& error) { failFrame(error); }
             continue;
         }
         startLoading(j + 1);
         const double loadMs = since(start);
         job.frames = framesOf(job.config, options.frames, loaded.scene.frames);
         if (job.frames.size() > 1 && !hasFrameNumber(job.output))
-            throw Error(ExitCode::usage, {job.output.string()}, fmt::format("{} frames would be written to one file", job.frames.size()), "put #### into the path: room_####.png");
+            throw Error(ExitCode::usage, {job.output.string()},
+                fmt::format("{} frames would be written to one file", job.frames.size()),
+                "put #### into the path: room_####.png");
         for (const int frame : job.frames) {
             const auto frameStart = Clock::now();
             const auto path = framePath(job.output, frame);
@@ -225,9 +253,12 @@ ExitCode run(const Options& options) {
                 renderOptions.onBand = [&](const RenderedFrame& band) { writer.add(band); };
                 goToFrame(loaded, frame);
                 RenderedFrame rendered = renderer.render(job.config, loaded, frame, renderOptions);
-                if (done == 0) rendered.times.insert(rendered.times.begin(), {{"device", deviceMs}, {"load, beyond the device", std::max(0.0, loadMs - deviceMs)}});
+                if (done == 0)
+                    rendered.times.insert(rendered.times.begin(),
+                        {{"device", deviceMs}, {"load, beyond the device", std::max(0.0, loadMs - deviceMs)}});
                 if (rendered.nonFinite > 0) {
-                    const auto text = fmt::format("{} values in {} are not finite numbers", rendered.nonFinite, path.string());
+                    const auto text =
+                        fmt::format("{} values in {} are not finite numbers", rendered.nonFinite, path.string());
                     if (options.strict) throw Error(ExitCode::internal, {}, text, "please report this, with the scene");
                     log::warning("{}: please report this, with the scene", text);
                 }
@@ -239,18 +270,17 @@ ExitCode run(const Options& options) {
                 log::debug("  {:<24} {:8.1f} ms", "write", writeMs);
                 appendStats(stats, path, frame, rendered, writeMs, totalMs);
                 ++done;
-            } catch (const Error& error) {
-                failFrame(error);
-            } catch (const Errors& several) {
+            } catch (const Error& error) { failFrame(error); } catch (const Errors& several) {
                 if (!options.keepGoing) throw;
                 for (const auto& error : several.list) failFrame(error);
             }
         }
-        renderer.await({});   // what nobody came for
+        renderer.await({});  // what nobody came for
         loaded = {};
     }
     if (!renderer.device().debugMessages().empty())
-        throw Error(ExitCode::internal, {}, fmt::format("the GL driver objects: {}", renderer.device().debugMessages().front()), "please report this");
+        throw Error(ExitCode::internal, {},
+            fmt::format("the GL driver objects: {}", renderer.device().debugMessages().front()), "please report this");
     if (!options.stats.empty()) replaceFile(options.stats, fmt::format("[\n{}\n]\n", stats));
     if (failed == 0) return ExitCode::done;
     return done > 0 ? ExitCode::someFramesFailed : firstFailure;
@@ -259,23 +289,42 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void DeviceFlags::add(CLI::App& command) {
-    command.add_option("--device", options.device, "EGL device: software, gpu, its number, or part of its renderer's name")->type_name("D");
+    command
+        .add_option("--device", options.device, "EGL device: software, gpu, its number, or part of its renderer's name")
+        ->type_name("D");
     command.add_flag("--require-gpu", options.requireGpu, "Fail (69) rather than draw in software");
-    command.add_option("--shader-dir", shaderFolder, "Read shaders from this folder instead of the built-in ones")->type_name("DIR");
+    command.add_option("--shader-dir", shaderFolder, "Read shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
     options.debug = std::getenv("LIMN_GL_DEBUG") != nullptr;
 }
 
 void addRender(CLI::App& app, Chosen& chosen) {
     auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand("render", "Draw configs (or OBJ files) into pictures");
-    command->add_option("CONFIG", options->configs, "Config files, or OBJ files to draw in the quickstart's style")->required();
-    command->add_option("--frames", options->frames, "Frames: 12, 1-100, 1-100x2, 1,5,9-12; without it all that the scene declares")->type_name("SPEC");
-    command->add_option("--output", options->output, "Where to: a file, a folder, or a pattern with {config} and #### for the frame")->type_name("PATTERN");
-    command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4, edges.0.width=2px")->type_name("KEY=VALUE")->allow_extra_args(false);
+    command->add_option("CONFIG", options->configs, "Config files, or OBJ files to draw in the quickstart's style")
+        ->required();
+    command
+        ->add_option(
+            "--frames", options->frames, "Frames: 12, 1-100, 1-100x2, 1,5,9-12; without it all that the scene declares")
+        ->type_name("SPEC");
+    command
+        ->add_option("--output", options->output,
+            "Where to: a file, a folder, or a pattern with {config} and #### for the frame")
+        ->type_name("PATTERN");
+    command->add_option("--set", options->overrides.settings, "Change a setting: ao.radius=0.4, edges.0.width=2px")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
-    command->add_option("--subdivide", options->overrides.subdivide, "Draw OBJ files as Catmull-Clark surfaces of this level")->type_name("N")->check(CLI::Range(0, 10));
-    command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")->type_name("X,Y,W,H");
-    command->add_option("--threads", options->threads, "CPU threads; without it what the farm or the machine grants")->type_name("N")->check(CLI::Range(1, 4096));
+    command
+        ->add_option(
+            "--subdivide", options->overrides.subdivide, "Draw OBJ files as Catmull-Clark surfaces of this level")
+        ->type_name("N")
+        ->check(CLI::Range(0, 10));
+    command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")
+        ->type_name("X,Y,W,H");
+    command->add_option("--threads", options->threads, "CPU threads; without it what the farm or the machine grants")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
     command->add_flag("--keep-going", options->keepGoing, "Draw the other frames when one fails (exit code 1)");
     command->add_flag("--strict", options->strict, "Fail when a value in the picture is not a finite number");
     command->add_option("--stats", options->stats, "Write the times of each part to this JSON file")->type_name("FILE");

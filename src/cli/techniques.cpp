@@ -19,33 +19,46 @@ struct Row {
 std::vector<Row> rows(Schema schema, const void* defaults) {
     std::vector<Row> result;
     for (const auto& f : schema)
-        result.push_back({std::string(f.name), typeText(f), f.info.required ? "required" : defaults ? f.type().text(f.member_(defaults)) : "", rangeText(f), std::string(f.info.unit), std::string(f.info.doc), f.info.accuracy,
-                          f.info.keyable && f.type().components > 0});
+        result.push_back({std::string(f.name), typeText(f),
+            f.info.required ? "required"
+                : defaults  ? f.type().text(f.member_(defaults))
+                            : "",
+            rangeText(f), std::string(f.info.unit), std::string(f.doc), f.info.accuracy,
+            f.info.keyable && f.type().components > 0});
     return result;
 }
 
 std::string textOf(const Technique& technique) {
     std::string out = fmt::format("{} = \"{}\"\n    {}\n", technique.slot, technique.name, technique.doc);
     for (const auto& row : rows(technique.schema, technique.makeParams().get())) {
-        out += fmt::format("    {:<20} {}  ({}{}{}{}{})\n", row.name, row.standard, row.type, row.range.empty() ? "" : ", " + row.range, row.unit.empty() ? "" : ", " + row.unit, row.keyable ? ", may be keyed" : "", row.accuracy ? ", buys accuracy" : "");
+        out += fmt::format("    {:<20} {}  ({}{}{}{}{})\n", row.name, row.standard, row.type,
+            row.range.empty() ? "" : ", " + row.range, row.unit.empty() ? "" : ", " + row.unit,
+            row.keyable ? ", may be keyed" : "", row.accuracy ? ", buys accuracy" : "");
         out += fmt::format("    {:<20} {}\n", "", row.doc);
     }
-    for (const auto& preset : technique.presets) out += fmt::format("    {:<20} {}\n", preset.name == "paper" ? "mode = \"paper\"" : fmt::format("preset = \"{}\"", preset.name), preset.doc);
+    for (const auto& preset : technique.presets)
+        out += fmt::format("    {:<20} {}\n",
+            preset.name == "paper" ? "mode = \"paper\"" : fmt::format("preset = \"{}\"", preset.name), preset.doc);
     return out;
 }
 
 std::string jsonOf(const Technique& technique) {
-    std::string out = fmt::format("  {{\"slot\": {}, \"name\": {}, \"doc\": {}, \"parameters\": [", jsonText(technique.slot), jsonText(technique.name), jsonText(technique.doc));
+    std::string out = fmt::format("  {{\"slot\": {}, \"name\": {}, \"doc\": {}, \"parameters\": [",
+        jsonText(technique.slot), jsonText(technique.name), jsonText(technique.doc));
     bool first = true;
     for (const auto& row : rows(technique.schema, technique.makeParams().get())) {
-        out += fmt::format("{}\n    {{\"name\": {}, \"type\": {}, \"default\": {}, \"range\": {}, \"unit\": {}, \"doc\": {}, \"accuracy\": {}, \"keyable\": {}}}", first ? "" : ",", jsonText(row.name), jsonText(row.type), jsonText(row.standard),
-                           jsonText(row.range), jsonText(row.unit), jsonText(row.doc), row.accuracy, row.keyable);
+        out += fmt::format(
+            "{}\n    {{\"name\": {}, \"type\": {}, \"default\": {}, \"range\": {}, \"unit\": {}, \"doc\": {}, "
+            "\"accuracy\": {}, \"keyable\": {}}}",
+            first ? "" : ",", jsonText(row.name), jsonText(row.type), jsonText(row.standard), jsonText(row.range),
+            jsonText(row.unit), jsonText(row.doc), row.accuracy, row.keyable);
         first = false;
     }
     out += "], \"presets\": [";
     first = true;
     for (const auto& preset : technique.presets) {
-        out += fmt::format("{}{{\"name\": {}, \"doc\": {}, \"settings\": {}}}", first ? "" : ", ", jsonText(preset.name), jsonText(preset.doc), jsonText(preset.settings));
+        out += fmt::format("{}{{\"name\": {}, \"doc\": {}, \"settings\": {}}}", first ? "" : ", ",
+            jsonText(preset.name), jsonText(preset.doc), jsonText(preset.settings));
         first = false;
     }
     return out + "]}";
@@ -60,13 +73,18 @@ std::string markdownTable(const std::vector<Row>& table) {
     if (table.empty()) return "No parameters.\n";
     std::string out = "| parameter | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n";
     for (const auto& row : table)
-        out += fmt::format("| `{}` | {}{} | `{}` | {} | {} | {}{} |\n", row.name, row.type, row.keyable ? ", keyable" : "", escapedCell(row.standard), row.range, row.unit, escapedCell(row.doc), row.accuracy ? " *Buys accuracy with time.*" : "");
+        out += fmt::format("| `{}` | {}{} | `{}` | {} | {} | {}{} |\n", row.name, row.type,
+            row.keyable ? ", keyable" : "", escapedCell(row.standard), row.range, row.unit, escapedCell(row.doc),
+            row.accuracy ? " *Buys accuracy with time.*" : "");
     return out;
 }
 
 std::string markdownOf(const Technique& technique) {
-    std::string out = fmt::format("### {} = \"{}\"\n\n{}\n\n{}", technique.slot, technique.name, technique.doc, markdownTable(rows(technique.schema, technique.makeParams().get())));
-    for (const auto& preset : technique.presets) out += fmt::format("\n`{} = \"{}\"`: {} (`{}`)\n", preset.name == "paper" ? "mode" : "preset", preset.name, preset.doc, preset.settings.empty() ? "no change" : preset.settings);
+    std::string out = fmt::format("### {} = \"{}\"\n\n{}\n\n{}", technique.slot, technique.name, technique.doc,
+        markdownTable(rows(technique.schema, technique.makeParams().get())));
+    for (const auto& preset : technique.presets)
+        out += fmt::format("\n`{} = \"{}\"`: {} (`{}`)\n", preset.name == "paper" ? "mode" : "preset", preset.name,
+            preset.doc, preset.settings.empty() ? "no change" : preset.settings);
     return out + "\n";
 }
 
@@ -75,18 +93,23 @@ ExitCode run(const std::string& name, const std::string& format) {
     std::vector<std::string> names;
     for (const auto* technique : allTechniques()) {
         names.emplace_back(technique->name);
-        if (std::find(names.begin(), names.end(), std::string(technique->slot)) == names.end()) names.emplace_back(technique->slot);
+        if (std::find(names.begin(), names.end(), std::string(technique->slot)) == names.end())
+            names.emplace_back(technique->slot);
         if (name.empty() || technique->name == name || technique->slot == name) chosen.push_back(technique);
     }
-    if (chosen.empty()) throw Error(ExitCode::usage, {}, fmt::format("there is no technique or slot '{}'", name), nameRemedy(name, names));
+    if (chosen.empty())
+        throw Error(
+            ExitCode::usage, {}, fmt::format("there is no technique or slot '{}'", name), nameRemedy(name, names));
     if (format == "markdown" && name.empty()) {
         fmt::print("{}", parameterReference());
         return ExitCode::done;
     }
     std::string out;
     for (const auto* technique : chosen) {
-        if (format == "json") out += (out.empty() ? "[\n" : ",\n") + jsonOf(*technique);
-        else out += (format == "markdown" ? markdownOf(*technique) : textOf(*technique) + "\n");
+        if (format == "json")
+            out += (out.empty() ? "[\n" : ",\n") + jsonOf(*technique);
+        else
+            out += (format == "markdown" ? markdownOf(*technique) : textOf(*technique) + "\n");
     }
     fmt::print("{}{}", out, format == "json" ? "\n]\n" : "");
     return ExitCode::done;
@@ -96,13 +119,20 @@ ExitCode run(const std::string& name, const std::string& format) {
 
 std::string parameterReference() {
     std::string out = "# Parameter reference\n\nMade from the program's own tables.\n\n## Render config\n\n";
-    for (const auto& section : configSections()) out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name), section.doc, markdownTable(rows(section.schema, nullptr))) + "\n";
+    for (const auto& section : configSections())
+        out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name),
+                   section.doc, markdownTable(rows(section.schema, nullptr)))
+            + "\n";
     out += "## Techniques\n\n";
     for (const auto* technique : allTechniques()) out += markdownOf(*technique);
     out += "## Scene file\n\n";
-    for (const auto& section : sceneSections()) out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name), section.doc, markdownTable(rows(section.schema, nullptr))) + "\n";
+    for (const auto& section : sceneSections())
+        out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name),
+                   section.doc, markdownTable(rows(section.schema, nullptr)))
+            + "\n";
     out += "## Images (AOVs)\n\n| name | format | meaning |\n|---|---|---|\n";
-    for (const Aov* aov : aov::all) out += fmt::format("| `{}` | {} | {} |\n", aov->name, info(aov->format).name, aov->doc);
+    for (const Aov* aov : aov::all)
+        out += fmt::format("| `{}` | {} | {} |\n", aov->name, info(aov->format).name, aov->doc);
     return out;
 }
 
@@ -111,7 +141,8 @@ void addTechniques(CLI::App& app, Chosen& chosen) {
     auto format = std::make_shared<std::string>("text");
     auto* command = app.add_subcommand("techniques", "List every slot, technique and parameter");
     command->add_option("NAME", *name, "Only this technique, or this slot's");
-    command->add_option("--format", *format, "text, json or markdown")->check(CLI::IsMember({"text", "json", "markdown"}));
+    command->add_option("--format", *format, "text, json or markdown")
+        ->check(CLI::IsMember({"text", "json", "markdown"}));
     command->callback([=, &chosen] { chosen = [=] { return run(*name, *format); }; });
 }
 

@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 // The parser asserts what it then reports as an error: a slip in a file must not end a debug build.
 #define TOML_ASSERT(expr) static_cast<void>(0)
-// Its table of blanks (3.3) calls U+00A1 to U+0499 and others "unreachable": for the letter after a backslash in a long string, and for
-// one outside quotes, that is undefined behaviour. Those letters are no blanks; this header is read first, with that answer.
+// Its table of blanks (3.3) calls U+00A1 to U+0499 and others "unreachable": for the letter after a backslash in a long
+// string, and for one outside quotes, that is undefined behaviour. Those letters are no blanks; this header is read
+// first, with that answer.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
@@ -21,7 +22,9 @@
 namespace limn {
 namespace {
 
-Location place(const toml::source_region& source, const std::string& file) { return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)}; }
+Location place(const toml::source_region& source, const std::string& file) {
+    return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
 
 Node convert(const toml::node& node, const std::string& file) {
     Node result;
@@ -31,12 +34,14 @@ Node convert(const toml::node& node, const std::string& file) {
         for (const auto& [key, value] : *table) {
             Node entry = convert(value, file);
             entry.keyWhere = place(key.source(), file);
-            // Only toml++ knows the header of [table]: it points at the bracket, which is the better place for "this table lacks…".
+            // Only toml++ knows the header of [table]: it points at the bracket, which is the better place for "this
+            // table lacks…".
             entries.emplace_back(std::string(key.str()), std::move(entry));
         }
         // toml++ sorts keys by name; people think in the order they wrote.
         std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-            return std::pair(a.second.keyWhere.line, a.second.keyWhere.column) < std::pair(b.second.keyWhere.line, b.second.keyWhere.column);
+            return std::pair(a.second.keyWhere.line, a.second.keyWhere.column)
+                < std::pair(b.second.keyWhere.line, b.second.keyWhere.column);
         });
         result.value = std::move(entries);
     } else if (const auto* array = node.as_array()) {
@@ -52,7 +57,8 @@ Node convert(const toml::node& node, const std::string& file) {
     } else if (const auto* boolean = node.as_boolean()) {
         result.value = boolean->get();
     } else {
-        throw Error(ExitCode::usage, result.where, "dates and times have no meaning here", "write text in quotes or a number");
+        throw Error(
+            ExitCode::usage, result.where, "dates and times have no meaning here", "write text in quotes or a number");
     }
     return result;
 }
@@ -74,16 +80,20 @@ void merge(Node& below, Node&& above) {
     below.where = above.where;
 }
 
-Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem::path>& open, std::vector<std::filesystem::path>* files, const Location& from) {
+Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem::path>& open,
+    std::vector<std::filesystem::path>* files, const Location& from) {
     std::error_code unknown;
     const auto key = std::filesystem::weakly_canonical(path, unknown);
     if (std::find(open.begin(), open.end(), key) != open.end())
-        throw Error(ExitCode::usage, from, fmt::format("'{}' includes itself", path.string()), "remove one of the includes");
+        throw Error(
+            ExitCode::usage, from, fmt::format("'{}' includes itself", path.string()), "remove one of the includes");
     std::string text;
     try {
         text = readFile(path);
     } catch (Error& error) {
-        if (!from.file.empty()) throw Error(error.code, from, fmt::format("the included file '{}' {}", path.string(), error.problem), error.remedy);
+        if (!from.file.empty())
+            throw Error(
+                error.code, from, fmt::format("the included file '{}' {}", path.string(), error.problem), error.remedy);
         throw;
     }
     if (files) files->push_back(path);
@@ -95,7 +105,9 @@ Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem:
     const Node list = include->isArray() ? *include : Node{include->where, Node::Array{*include}};
     Node layered;
     for (const auto& entry : list.array()) {
-        if (!entry.text()) throw Error(ExitCode::usage, entry.where, "'include' must be a list of file names", "write include = [\"style.toml\"]");
+        if (!entry.text())
+            throw Error(ExitCode::usage, entry.where, "'include' must be a list of file names",
+                "write include = [\"style.toml\"]");
         const auto target = path.parent_path() / *entry.text();
         merge(layered, readLayered(target, open, files, entry.where));
     }
@@ -123,7 +135,9 @@ Node parseDocument(std::string_view text, const std::string& name) {
         return convert(toml::parse(text, name), name);
     } catch (const toml::parse_error& error) {
         const Location where = place(error.source(), name);
-        throw Error(ExitCode::usage, where, std::string(error.description()), isBeyondAscii(text, where) ? "letters beyond ASCII belong into quotes, and not behind a backslash" : "see https://toml.io for the syntax");
+        throw Error(ExitCode::usage, where, std::string(error.description()),
+            isBeyondAscii(text, where) ? "letters beyond ASCII belong into quotes, and not behind a backslash"
+                                       : "see https://toml.io for the syntax");
     }
 }
 
@@ -135,7 +149,8 @@ Node readDocument(const std::filesystem::path& path, std::vector<std::filesystem
 void applySetting(Node& document, std::string_view setting) {
     const Location where{fmt::format("--set {}", setting), 0, 0};
     const auto equals = setting.find('=');
-    if (equals == std::string_view::npos || equals == 0) throw Error(ExitCode::usage, where, "this is not KEY=VALUE", "write for example --set ao.radius=0.4");
+    if (equals == std::string_view::npos || equals == 0)
+        throw Error(ExitCode::usage, where, "this is not KEY=VALUE", "write for example --set ao.radius=0.4");
     const std::string text(setting.substr(equals + 1));
 
     Node value;
@@ -147,8 +162,10 @@ void applySetting(Node& document, std::string_view setting) {
     // Whatever stands inside came from the command line too.
     const auto setPlace = [&](auto&& self, Node& node) -> void {
         node.where = node.keyWhere = where;
-        if (auto* array = std::get_if<Node::Array>(&node.value)) for (auto& element : *array) self(self, element);
-        if (auto* table = std::get_if<Node::Table>(&node.value)) for (auto& entry : *table) self(self, entry.second);
+        if (auto* array = std::get_if<Node::Array>(&node.value))
+            for (auto& element : *array) self(self, element);
+        if (auto* table = std::get_if<Node::Table>(&node.value))
+            for (auto& entry : *table) self(self, entry.second);
     };
     setPlace(setPlace, value);
 
@@ -163,11 +180,16 @@ void applySetting(Node& document, std::string_view setting) {
                 node = &array->front();
                 continue;
             }
-            if (!index || *index < 0 || *index >= static_cast<double>(array->size()) || *index != static_cast<double>(static_cast<std::size_t>(*index)))
-                throw Error(ExitCode::usage, where, fmt::format("'{}' is no entry of a list with {} entries", key, array->size()), "count from 0, for example edges.0.width");
+            if (!index || *index < 0 || *index >= static_cast<double>(array->size())
+                || *index != static_cast<double>(static_cast<std::size_t>(*index)))
+                throw Error(ExitCode::usage, where,
+                    fmt::format("'{}' is no entry of a list with {} entries", key, array->size()),
+                    "count from 0, for example edges.0.width");
             node = &(*array)[static_cast<std::size_t>(*index)];
         } else {
-            if (!node->isTable()) throw Error(ExitCode::usage, where, fmt::format("'{}' lies inside a value that is not a table", key), "");
+            if (!node->isTable())
+                throw Error(
+                    ExitCode::usage, where, fmt::format("'{}' lies inside a value that is not a table", key), "");
             if (!node->find(key)) {
                 std::get<Node::Table>(node->value).emplace_back(key, Node{where, Node::Table{}, where});
             } else if (dot != std::string_view::npos && !node->find(key)->isTable() && !node->find(key)->isArray()) {

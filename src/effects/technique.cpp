@@ -24,7 +24,8 @@ std::vector<std::string> namesIn(std::string_view slot) {
 
 }  // namespace
 
-Technique::Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_, std::vector<Preset>&& presets_)
+Technique::Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_,
+    std::vector<Preset>&& presets_)
     : slot(slot_), name(name_), doc(doc_), schema(schema_), presets(std::move(presets_)) {
     registry().push_back(this);
 }
@@ -32,7 +33,8 @@ Technique::Technique(std::string_view slot_, std::string_view name_, std::string
 const std::vector<const Technique*>& allTechniques() {
     // The linker's order is no order: sort once, when everybody has registered.
     static const bool sorted = [] {
-        std::sort(registry().begin(), registry().end(), [](const auto* a, const auto* b) { return std::pair(a->slot, a->name) < std::pair(b->slot, b->name); });
+        std::sort(registry().begin(), registry().end(),
+            [](const auto* a, const auto* b) { return std::pair(a->slot, a->name) < std::pair(b->slot, b->name); });
         return true;
     }();
     static_cast<void>(sorted);
@@ -47,7 +49,9 @@ const Technique* findTechnique(std::string_view slot, std::string_view name) {
 
 ResourceId EffectBuilder::read(const Aov& aov) const {
     if (const auto found = find(aov)) return *found;
-    throw Error(ExitCode::internal, {}, fmt::format("{} '{}' reads '{}', which nothing before it writes", slot_, technique_, aov.name), "please report this");
+    throw Error(ExitCode::internal, {},
+        fmt::format("{} '{}' reads '{}', which nothing before it writes", slot_, technique_, aov.name),
+        "please report this");
 }
 
 std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
@@ -62,7 +66,9 @@ const TechniqueChoice* EffectBuilder::chosen(std::string_view slot, std::string_
     return nullptr;
 }
 
-ResourceId EffectBuilder::image(std::string name, Format format, int coarseness) { return graph_.add({std::move(name), format, (view_.region.size + coarseness - 1) / coarseness, false}); }
+ResourceId EffectBuilder::image(std::string name, Format format, int coarseness) {
+    return graph_.add({std::move(name), format, (view_.region.size + coarseness - 1) / coarseness, false});
+}
 
 ResourceId EffectBuilder::fineImage(std::string name, Format format) {
     usesFineRaster_ = true;
@@ -74,7 +80,7 @@ void EffectBuilder::add(Pass pass) {
     pass.technique = technique_;
     if (pass.shader.empty()) pass.shader = fmt::format("effects/{}/{}", slot_, technique_);
     if (pass.rate == Pass::Rate::sample) pass.rate = rate_;
-    if (view_.split.samples() == 1) pass.rate = Pass::Rate::sample;   // all the same, and nothing need last
+    if (view_.split.samples() == 1) pass.rate = Pass::Rate::sample;  // all the same, and nothing need last
     graph_.passes.push_back(std::move(pass));
 }
 
@@ -95,7 +101,8 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     shadowMaps_ = graph_.add({"shadow_maps", Format::depth32f, layout.size, false});
     Pass pass;
     pass.name = "shadow_maps";
-    pass.slot = "shadow", pass.technique = "shadow_map";
+    pass.slot = "shadow";
+    pass.technique = "shadow_map";
     pass.kind = Pass::Kind::raster;
     pass.rate = Pass::Rate::frame;
     pass.shader = "frame/shadow_map";
@@ -118,21 +125,26 @@ std::shared_ptr<void> TechniqueChoice::at(double frame) const {
 
 TechniqueChoice defaultChoice(std::string_view slot, std::string_view name) {
     const Technique* technique = findTechnique(slot, name);
-    if (!technique) throw Error(ExitCode::internal, {}, fmt::format("there is no {} technique '{}'", slot, name), "please report this");
+    if (!technique)
+        throw Error(
+            ExitCode::internal, {}, fmt::format("there is no {} technique '{}'", slot, name), "please report this");
     return {technique, technique->makeParams(), {}, "default"};
 }
 
 void applySettings(TechniqueChoice& choice, std::string_view settings) {
     ErrorCollector errors;
     const Node table = *parseDocument(fmt::format("settings = {{ {} }}", settings), "settings").find("settings");
-    readFields(table, choice.technique->schema, choice.params.get(), &choice.tracks, fmt::format("{} '{}'", choice.technique->slot, choice.technique->name), errors);
+    readFields(table, choice.technique->schema, choice.params.get(), &choice.tracks,
+        fmt::format("{} '{}'", choice.technique->slot, choice.technique->name), errors);
     errors.throwIfAny();
 }
 
-TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what, ErrorCollector& errors, std::span<const std::string_view> alsoKnown) {
+TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what,
+    ErrorCollector& errors, std::span<const std::string_view> alsoKnown) {
     TechniqueChoice choice;
     if (!section.isTable() && !section.text()) {
-        errors.add({ExitCode::usage, section.where, fmt::format("{} must be a table, not {}", what, section.kindName()), ""});
+        errors.add(
+            {ExitCode::usage, section.where, fmt::format("{} must be a table, not {}", what, section.kindName()), ""});
         return choice;
     }
     // A technique without settings may be given by its name alone.
@@ -141,8 +153,12 @@ TechniqueChoice readChoice(const Node& section, std::string_view slot, std::stri
     choice.technique = findTechnique(slot, name);
     if (!choice.technique) {
         const auto names = namesIn(slot);
-        if (!named) errors.add({ExitCode::usage, section.where, fmt::format("{} has no 'technique'", what), "it can be " + joinOr(names)});
-        else errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot, name), nameRemedy(name, names)});
+        if (!named)
+            errors.add({ExitCode::usage, section.where, fmt::format("{} has no 'technique'", what),
+                "it can be " + joinOr(names)});
+        else
+            errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot, name),
+                nameRemedy(name, names)});
         return choice;
     }
     choice.params = choice.technique->makeParams();
@@ -154,20 +170,28 @@ TechniqueChoice readChoice(const Node& section, std::string_view slot, std::stri
             if (known.name == preset) return applySettings(choice, known.settings);
             presets.emplace_back(known.name);
         }
-        errors.add({ExitCode::usage, node.where, fmt::format("{} technique '{}' has no preset '{}'", slot, name, preset), presets.empty() ? "it has none" : nameRemedy(preset, presets)});
+        errors.add(
+            {ExitCode::usage, node.where, fmt::format("{} technique '{}' has no preset '{}'", slot, name, preset),
+                presets.empty() ? "it has none" : nameRemedy(preset, presets)});
     };
     if (const Node* mode = section.find("mode")) {
         const std::string* text = mode->text();
-        if (!text || (*text != "default" && *text != "paper")) errors.add({ExitCode::usage, mode->where, fmt::format("'mode' in {} must be \"default\" or \"paper\"", what), ""});
-        else if (choice.mode = *text; *text == "paper") applyPreset(*mode, "paper");
+        if (!text || (*text != "default" && *text != "paper"))
+            errors.add(
+                {ExitCode::usage, mode->where, fmt::format("'mode' in {} must be \"default\" or \"paper\"", what), ""});
+        else if (choice.mode = *text; *text == "paper")
+            applyPreset(*mode, "paper");
     }
     if (const Node* preset = section.find("preset")) {
-        if (preset->text()) applyPreset(*preset, *preset->text());
-        else errors.add({ExitCode::usage, preset->where, fmt::format("'preset' in {} must be text", what), ""});
+        if (preset->text())
+            applyPreset(*preset, *preset->text());
+        else
+            errors.add({ExitCode::usage, preset->where, fmt::format("'preset' in {} must be text", what), ""});
     }
     std::vector<std::string_view> known{"technique", "mode", "preset"};
     known.insert(known.end(), alsoKnown.begin(), alsoKnown.end());
-    readFields(section, choice.technique->schema, choice.params.get(), &choice.tracks, fmt::format("{} ({})", what, name), errors, known);
+    readFields(section, choice.technique->schema, choice.params.get(), &choice.tracks,
+        fmt::format("{} ({})", what, name), errors, known);
     return choice;
 }
 

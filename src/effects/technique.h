@@ -1,9 +1,10 @@
 // What an effect is made of, and where it makes itself known.
 //
-// An effect is two files of one stem: src/effects/<slot>/<name>.cpp and shaders/effects/<slot>/<name>.comp. The .cpp ends with
+// An effect is two files of one stem: src/effects/<slot>/<name>.cpp and shaders/effects/<slot>/<name>.comp. The .cpp
+// ends with
 //     const Technique kName{"slot", "name", "what it is", kParams, build};
-// and nothing else knows that it exists. Its code lives in a namespace of its own, limn::<slot>_<name>, not in an anonymous one: g++ 12
-// merges the accessors of members of one name in anonymous structs of one name, across files.
+// and nothing else knows that it exists. Its code lives in a namespace of its own, limn::<slot>_<name>, not in an
+// anonymous one: g++ 12 merges the accessors of members of one name in anonymous structs of one name, across files.
 #pragma once
 
 #include "base/params.h"
@@ -27,15 +28,15 @@ struct SceneFacts {
     std::span<const Light> lights;
     std::span<const DrawInstance> instances;
     std::span<const Material> materials;
-    bool textured = false;         ///< some drawn material has a texture
-    bool cutouts = false;          ///< some drawn material has holes
-    bool vertexColors = false;     ///< some drawn mesh has vertex colours, and a material that wants them
-    bool shiny = false;            ///< some drawn material has a highlight
-    bool coloredLight = false;     ///< some light is not grey
-    bool lineRecords = false;      ///< some object or material says something about its lines
-    bool sections = false;         ///< something is cut open
-    bool hatched = false;          ///< and its cut faces are hatched
-    int triangleBits = 0;          ///< of a number that names an instance and its triangle, where 32 bits can; else 0
+    bool textured = false;      ///< some drawn material has a texture
+    bool cutouts = false;       ///< some drawn material has holes
+    bool vertexColors = false;  ///< some drawn mesh has vertex colours, and a material that wants them
+    bool shiny = false;         ///< some drawn material has a highlight
+    bool coloredLight = false;  ///< some light is not grey
+    bool lineRecords = false;   ///< some object or material says something about its lines
+    bool sections = false;      ///< something is cut open
+    bool hatched = false;       ///< and its cut faces are hatched
+    int triangleBits = 0;       ///< of a number that names an instance and its triangle, where 32 bits can; else 0
 };
 
 struct TechniqueChoice;
@@ -43,12 +44,14 @@ struct TechniqueChoice;
 /// What an effect builds its passes with.
 class EffectBuilder {
 public:
-    EffectBuilder(Graph& graph, const View& view, const SceneFacts& scene) : graph_(graph), view_(view), scene_(scene) {}
+    EffectBuilder(Graph& graph, const View& view, const SceneFacts& scene)
+        : graph_(graph), view_(view), scene_(scene) {}
 
     const View& view() const { return view_; }
     const SceneFacts& scene() const { return scene_; }
 
-    /// The image that holds an AOV so far. Missing is a bug of the pipeline or of the order of slots: throws Error (internal).
+    /// The image that holds an AOV so far. Missing is a bug of the pipeline or of the order of slots: throws Error
+    /// (internal).
     ResourceId read(const Aov& aov) const;
     std::optional<ResourceId> find(const Aov& aov) const;
     /// From now on this image is the AOV.
@@ -78,7 +81,9 @@ public:
     void defineSeen(Pass& pass) const;
 
     /// `rate`: of its passes that do not say.
-    void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) { slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate; }
+    void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) {
+        slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate;
+    }
     /// For techniques of slots that do with a part of the samples, if they are sharp.
     void useEverySample() { rate_ = Pass::Rate::sample; }
     /// A unique suffix for layered slots ("edges" twice), or "".
@@ -100,12 +105,14 @@ private:
 
 /// The uniform block `params` of a pass, from a constants struct and its table.
 template <class C, std::size_t N>
-UniformBlock paramsBlock(const Field (&fields)[N], const C& constants) { return makeUniformBlock("params", 1, fields, &constants); }
+UniformBlock paramsBlock(const Field (&fields)[N], const C& constants) {
+    return makeUniformBlock("params", 1, fields, &constants);
+}
 
 /// Settings that belong together. `mode = "paper"` is the preset of that name.
 struct Preset {
     std::string_view name, doc;
-    std::string_view settings;     ///< TOML: "kernel = 'sphere', dead_zone = 5"
+    std::string_view settings;  ///< TOML: "kernel = 'sphere', dead_zone = 5"
 };
 
 /// Settings of a technique that has none.
@@ -120,19 +127,27 @@ struct Technique {
     void (*build)(EffectBuilder&, const void* params, const Technique& self);
 
     template <class P>
-    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, std::type_identity_t<Schema> fields, void (*build_)(EffectBuilder&, const P&), std::vector<Preset> presets_ = {})
+    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_,
+        std::type_identity_t<Schema> fields, void (*build_)(EffectBuilder&, const P&),
+        std::vector<Preset> presets_ = {})
         : Technique(slot_, name_, doc_, fields, std::move(presets_)) {
         makeParams = []() -> std::shared_ptr<void> { return std::make_shared<P>(); };
-        copyParams = [](const void* params) -> std::shared_ptr<void> { return std::make_shared<P>(*static_cast<const P*>(params)); };
+        copyParams = [](const void* params) -> std::shared_ptr<void> {
+            return std::make_shared<P>(*static_cast<const P*>(params));
+        };
         buildFunction_ = reinterpret_cast<void (*)()>(build_);
-        build = [](EffectBuilder& builder, const void* params, const Technique& self) { reinterpret_cast<void (*)(EffectBuilder&, const P&)>(self.buildFunction_)(builder, *static_cast<const P*>(params)); };
+        build = [](EffectBuilder& builder, const void* params, const Technique& self) {
+            reinterpret_cast<void (*)(EffectBuilder&, const P&)>(self.buildFunction_)(
+                builder, *static_cast<const P*>(params));
+        };
     }
 
     Technique(const Technique&) = delete;
     Technique& operator=(const Technique&) = delete;
 
 private:
-    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_, std::vector<Preset>&& presets_);   // registers
+    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_, Schema schema_,
+        std::vector<Preset>&& presets_);  // registers
     void (*buildFunction_)() = nullptr;
 };
 
@@ -153,9 +168,10 @@ struct TechniqueChoice {
 
 /// A technique as it is when nothing is said but its name. Throws Error (internal) if there is none.
 TechniqueChoice defaultChoice(std::string_view slot, std::string_view name);
-/// Reads `technique`, `mode`, `preset` and the parameters of a section. Problems go to `errors`; `fallback` names the technique when the
-/// section does not (empty: it must). `alsoKnown` are keys that somebody else reads.
-TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what, ErrorCollector& errors, std::span<const std::string_view> alsoKnown = {});
+/// Reads `technique`, `mode`, `preset` and the parameters of a section. Problems go to `errors`; `fallback` names the
+/// technique when the section does not (empty: it must). `alsoKnown` are keys that somebody else reads.
+TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what,
+    ErrorCollector& errors, std::span<const std::string_view> alsoKnown = {});
 
 /// A setting of a choice changed from TOML text, as tests and studies do. Throws Errors.
 void applySettings(TechniqueChoice& choice, std::string_view settings);

@@ -10,19 +10,24 @@
 
 namespace limn {
 
-const gl::Program& Executor::program(const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block) {
-    const auto stages = shadersOf(graph, planned, view, block, drawsScreen() ? ComputeAs::drawings : ComputeAs::shaders, shaders_);
+const gl::Program& Executor::program(
+    const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block) {
+    const auto stages =
+        shadersOf(graph, planned, view, block, drawsScreen() ? ComputeAs::drawings : ComputeAs::shaders, shaders_);
     std::string key;
     for (const auto& stage : stages) key += stage.source;
     auto it = programs_.find(key);
-    if (it == programs_.end()) it = programs_.emplace(key, gl::Program(stages, graph.passes[static_cast<std::size_t>(planned.pass)].name)).first;
+    if (it == programs_.end())
+        it = programs_.emplace(key, gl::Program(stages, graph.passes[static_cast<std::size_t>(planned.pass)].name))
+                 .first;
     return it->second;
 }
 
 void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
     const UniformBlock block = viewBlock(view);
     for (const auto& planned : plan.passes)
-        if (planned.runs && graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host) program(graph, planned, view, block);
+        if (planned.runs && graph.passes[static_cast<std::size_t>(planned.pass)].kind != Pass::Kind::host)
+            program(graph, planned, view, block);
 }
 
 void Executor::allocate(const Plan& plan) {
@@ -39,21 +44,23 @@ void Executor::allocate(const Plan& plan) {
     }
     // Images are the C heap's there. A third more: for triangles on their way into them, and for what is read back.
     if (device_.report().isSoftware) bringInPages(bytes + bytes / 3);
-    for (const std::size_t i : missing) textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
+    for (const std::size_t i : missing)
+        textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
 }
 
 const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) const {
     return textures_.at(static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(resource.index)]));
 }
 
-void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure) {
+void Executor::run(
+    const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
     const gl::Buffer viewBuffer(block.bytes, "view");
     std::vector<gl::Timestamp> stamps;
     const auto stamp = [&] {
         if (!measure) return;
-        gl::finish();   // a pass's time is its own, not that of what is still under way
+        gl::finish();  // a pass's time is its own, not that of what is still under way
         stamps.emplace_back();
     };
     if (measure && !timerIsWarm_) {
@@ -84,22 +91,29 @@ void Executor::run(const Graph& graph, const Plan& plan, const View& view, GpuSc
         int unit = 0;
         for (const auto& read : pass.reads) {
             const auto& image = texture(plan, read.resource);
-            if (asImages && !info(image.format()).glslImage.empty()) image.bindImage(unit++, gl::Access::read);
-            else image.bindSampler(unit++);
+            if (asImages && !info(image.format()).glslImage.empty())
+                image.bindImage(unit++, gl::Access::read);
+            else
+                image.bindSampler(unit++);
         }
-        if (pass.kind == Pass::Kind::raster) runRaster(graph, plan, planned, view, scene, linked);
-        else if (drawsScreen()) runScreen(graph, plan, planned, view, linked);
-        else runCompute(graph, plan, planned);
+        if (pass.kind == Pass::Kind::raster)
+            runRaster(graph, plan, planned, view, scene, linked);
+        else if (drawsScreen())
+            runScreen(graph, plan, planned, view, linked);
+        else
+            runCompute(graph, plan, planned);
         stamp();
     }
     if (measure) {
         milliseconds_.resize(plan.passes.size());
-        for (std::size_t i = 0; i < plan.passes.size(); ++i) milliseconds_[i] += stamps[i + 1].milliseconds() - stamps[i].milliseconds();
+        for (std::size_t i = 0; i < plan.passes.size(); ++i)
+            milliseconds_[i] += stamps[i + 1].milliseconds() - stamps[i].milliseconds();
     }
     device_.check("drawing");
 }
 
-/// The part of an image that a pass must make: the picture and the pass's halo. Images may be coarser than the region drawn.
+/// The part of an image that a pass must make: the picture and the pass's halo. Images may be coarser than the region
+/// drawn.
 static PixelRect neededPart(const PlannedPass& planned, const View& view, glm::ivec2 imageSize) {
     const int coarse = std::max(1, (view.region.size.x + imageSize.x - 1) / imageSize.x);
     const int skipped = planned.whole ? 0 : std::max(0, view.guard - planned.halo);
@@ -121,7 +135,8 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
     gl::dispatch(size, kWorkGroup);
 }
 
-void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays) {
+void Executor::runHost(
+    const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     HostWork work{rays, {}, {}, neededPart(planned, view, view.region.size)};
     const auto begin = std::chrono::steady_clock::now();
@@ -135,7 +150,8 @@ void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& 
         if (!planned.writes[w]) continue;
         const auto& target = texture(plan, pass.writes[w].resource);
         image = {target.size(), info(target.format()).channels, {}};
-        image.values.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y) * static_cast<std::size_t>(image.channels));
+        image.values.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y)
+            * static_cast<std::size_t>(image.channels));
     }
     const auto worked = std::chrono::steady_clock::now();
     pass.work(work);
@@ -143,7 +159,8 @@ void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& 
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
         if (planned.writes[w]) texture(plan, pass.writes[w].resource).write(work.writes[w].values);
     gl::finish();
-    transferMilliseconds_ += std::chrono::duration<double, std::milli>((worked - begin) + (std::chrono::steady_clock::now() - done)).count();
+    transferMilliseconds_ +=
+        std::chrono::duration<double, std::milli>((worked - begin) + (std::chrono::steady_clock::now() - done)).count();
 }
 
 /// The middles of the tiles that a mask names, as points; counted in tiles.
@@ -152,11 +169,15 @@ static std::vector<float> maskedTiles(const gl::Texture& mask) {
     std::vector<float> tiles;
     for (int y = 0; y < mask.size().y; ++y)
         for (int x = 0; x < mask.size().x; ++x)
-            if (values[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.size().x) + static_cast<std::size_t>(x)] > 0) tiles.insert(tiles.end(), {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+            if (values[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.size().x)
+                    + static_cast<std::size_t>(x)]
+                > 0)
+                tiles.insert(tiles.end(), {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
     return tiles;
 }
 
-void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& linked) {
+void Executor::runScreen(
+    const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& linked) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::vector<const gl::Texture*> colours;
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
@@ -193,10 +214,13 @@ void Executor::runScreen(const Graph& graph, const Plan& plan, const PlannedPass
     gl::barrier();
 }
 
-/// Draws the scene as the picture's camera sees it, without what it cannot see: first what faces it, then what that does not hide.
-void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer, const gl::Program& linked, const gl::Texture* depth) {
+/// Draws the scene as the picture's camera sees it, without what it cannot see: first what faces it, then what that
+/// does not hide.
+void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer,
+    const gl::Program& linked, const gl::Texture* depth) {
     const auto draw = [&](auto&& what) {
-        framebuffer.bind(), linked.use();
+        framebuffer.bind();
+        linked.use();
         gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
         gl::setViewport({0, 0}, view.canvas.size * raster);
         // Of a canvas larger than the region only that part is of interest.
@@ -213,12 +237,22 @@ FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {
     FarthestDepths farthest;
     farthest.size = (depth.size() + farthest.side - 1) / farthest.side;
     const gl::DebugGroup group("farthest_depths");
-    if (!farthestDepths_ || farthestDepths_.size() != farthest.size) farthestDepths_ = {}, farthestDepths_ = gl::Texture(Format::r32f, farthest.size, "farthest depths");
+    if (!farthestDepths_ || farthestDepths_.size() != farthest.size) {
+        farthestDepths_ = {};
+        farthestDepths_ = gl::Texture(Format::r32f, farthest.size, "farthest depths");
+    }
     if (!farthestProgram_)
-        farthestProgram_ = gl::Program(std::vector<gl::ShaderStage>{{gl::ShaderStage::Kind::vertex, "#version 450 core\nvoid handOn() {}\n" + shaders_.load("frame/screen.vert")}, {gl::ShaderStage::Kind::fragment, fmt::format("#version 450 core\n#define SIDE {}\n", farthest.side) + shaders_.load("frame/farthest_depths.frag")}}, "farthest_depths");
+        farthestProgram_ = gl::Program(std::vector<gl::ShaderStage>{{gl::ShaderStage::Kind::vertex,
+                                                                        "#version 450 core\nvoid handOn() {}\n"
+                                                                            + shaders_.load("frame/screen.vert")},
+                                           {gl::ShaderStage::Kind::fragment,
+                                               fmt::format("#version 450 core\n#define SIDE {}\n", farthest.side)
+                                                   + shaders_.load("frame/farthest_depths.frag")}},
+            "farthest_depths");
     const gl::Texture* target = &farthestDepths_;
     const gl::Framebuffer framebuffer({&target, 1}, nullptr, "farthest_depths");
-    framebuffer.bind(), farthestProgram_.use();
+    framebuffer.bind();
+    farthestProgram_.use();
     gl::setDepthTest(gl::DepthTest::none);
     gl::setViewport({0, 0}, farthest.size);
     depth.bindSampler(0);
@@ -230,7 +264,8 @@ FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {
     return farthest;
 }
 
-void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene, const gl::Program& linked) {
+void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
+    GpuScene& scene, const gl::Program& linked) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     std::vector<const gl::Texture*> colours;
     std::vector<glm::vec4> clears;
@@ -238,14 +273,20 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
         const auto& image = texture(plan, pass.writes[w].resource);
-        if (image.format() == Format::depth32f) depth = &image;
-        else colours.push_back(&image), clears.push_back(pass.writes[w].clear);
+        if (image.format() == Format::depth32f)
+            depth = &image;
+        else {
+            colours.push_back(&image);
+            clears.push_back(pass.writes[w].clear);
+        }
     }
     const gl::Framebuffer framebuffer(colours, depth, pass.name);
     framebuffer.bind();
     for (std::size_t i = 0; i < colours.size(); ++i) {
-        if (info(colours[i]->format()).glslPrefix == "u") framebuffer.clearInteger(static_cast<int>(i), glm::uvec4(clears[i]));
-        else framebuffer.clearFloat(static_cast<int>(i), clears[i]);
+        if (info(colours[i]->format()).glslPrefix == "u")
+            framebuffer.clearInteger(static_cast<int>(i), glm::uvec4(clears[i]));
+        else
+            framebuffer.clearFloat(static_cast<int>(i), clears[i]);
     }
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);

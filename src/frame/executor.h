@@ -1,9 +1,10 @@
 // Runs a Plan: makes its textures and programs, binds what each pass declared, times it if asked.
 //
-// Compute passes are written once and can run two ways, to the same bits: as compute shaders on a GPU, whose compute units outnumber its
-// raster pipeline by far; and as one large triangle on a software renderer, where storing a pixel from a fragment shader costs a third
-// (measured on llvmpipe: 4.6 ns against 15 ns for RGBA32F). Software renderers also set triangles up on one core, one after the other: of large scenes
-// they are given only those that can be seen (frame/culling.h).
+// Compute passes are written once and can run two ways, to the same bits: as compute shaders on a GPU, whose compute
+// units outnumber its raster pipeline by far; and as one large triangle on a software renderer, where storing a pixel
+// from a fragment shader costs a third (measured on llvmpipe: 4.6 ns against 15 ns for RGBA32F). Software renderers
+// also set triangles up on one core, one after the other: of large scenes they are given only those that can be seen
+// (frame/culling.h).
 #pragma once
 
 #include "frame/gpu_scene.h"
@@ -25,10 +26,11 @@ public:
     /// Compiles the programs of the passes that run in the plan.
     void prepare(const Graph& graph, const Plan& plan, const View& view);
 
-    /// Draws one sample of a frame: the passes that run in its plan. Samples must come in order. With `measure`, adds each pass's GPU time to
-    /// milliseconds().
+    /// Draws one sample of a frame: the passes that run in its plan. Samples must come in order. With `measure`, adds
+    /// each pass's GPU time to milliseconds().
     /// `rays` is there when the plan needs SceneData::rays.
-    void run(const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure);
+    void run(
+        const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const RayScene* rays, bool measure);
 
     /// A result of the last run that was asked for.
     const gl::Texture& texture(const Plan& plan, ResourceId resource) const;
@@ -40,21 +42,26 @@ public:
     void resetMeasurements() { milliseconds_.clear(), transferMilliseconds_ = 0; }
 
 private:
-    const gl::Program& program(const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block);
+    const gl::Program& program(
+        const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block);
     void allocate(const Plan& plan);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
-    void runScreen(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
-    void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
+    void runScreen(
+        const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
+    void runHost(
+        const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const RayScene* rays);
     bool drawsScreen() const { return device_.report().isSoftware; }
-    void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene, const gl::Program& program);
+    void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene,
+        const gl::Program& program);
 
-    void drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer, const gl::Program& program, const gl::Texture* depth);
+    void drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer,
+        const gl::Program& program, const gl::Texture* depth);
     FarthestDepths farthestDepths(const gl::Texture& depth);
 
     const gl::Device& device_;
     const ShaderLibrary& shaders_;
-    std::unordered_map<std::string, gl::Program> programs_;   ///< by their whole source
-    std::map<std::size_t, gl::Texture> textures_;             ///< by index into Plan::textures
+    std::unordered_map<std::string, gl::Program> programs_;  ///< by their whole source
+    std::map<std::size_t, gl::Texture> textures_;            ///< by index into Plan::textures
     std::vector<double> milliseconds_;
     double transferMilliseconds_ = 0;
     gl::VertexArray noVertices_;

@@ -1,4 +1,5 @@
-// How the weight of an occluder falls with its distance: part of what ambient occlusion means here, shared by every technique.
+// How the weight of an occluder falls with its distance: part of what ambient occlusion means here, shared by every
+// technique.
 #pragma once
 
 #include "base/params.h"

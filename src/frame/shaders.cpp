@@ -9,10 +9,14 @@
 
 namespace limn {
 
-bool ShaderLibrary::contains(const std::string& path) const { return folder_.empty() ? !embeddedShader(path).empty() : std::filesystem::exists(folder_ / path); }
+bool ShaderLibrary::contains(const std::string& path) const {
+    return folder_.empty() ? !embeddedShader(path).empty() : std::filesystem::exists(folder_ / path);
+}
 
 std::string ShaderLibrary::source(const std::string& path) const {
-    if (!contains(path)) throw Error(ExitCode::internal, {}, fmt::format("there is no shader '{}'", path), folder_.empty() ? "build limn again" : "check --shader-dir");
+    if (!contains(path))
+        throw Error(ExitCode::internal, {}, fmt::format("there is no shader '{}'", path),
+            folder_.empty() ? "build limn again" : "check --shader-dir");
     return folder_.empty() ? std::string(embeddedShader(path)) : readFile(folder_ / path);
 }
 
@@ -21,7 +25,7 @@ std::string ShaderLibrary::load(const std::string& path) const {
     std::set<std::string> seen;
     std::string out;
     expand(path, seen, out);
-    if (folder_.empty()) loaded_.emplace(path, out);   // those of a folder may change
+    if (folder_.empty()) loaded_.emplace(path, out);  // those of a folder may change
     return out;
 }
 

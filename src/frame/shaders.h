@@ -23,7 +23,7 @@ private:
     void expand(const std::string& path, std::set<std::string>& seen, std::string& out) const;
 
     std::filesystem::path folder_;
-    mutable std::map<std::string, std::string> loaded_;   ///< what load() gave, of sources that cannot change
+    mutable std::map<std::string, std::string> loaded_;  ///< what load() gave, of sources that cannot change
 };
 
 /// Made by CMake from shaders/.

@@ -12,14 +12,16 @@
 
 namespace limn {
 
-/// What a material shows, RGBA, linear, rows from the bottom as v counts: the colours of one image (white where its name is empty), and in alpha the holes
-/// of another: its alpha, or its brightness to the eye where it has none. Both as large as the larger. Throws what readImage throws.
+/// What a material shows, RGBA, linear, rows from the bottom as v counts: the colours of one image (white where its
+/// name is empty), and in alpha the holes of another: its alpha, or its brightness to the eye where it has none. Both
+/// as large as the larger. Throws what readImage throws.
 Image readTexture(const std::string& colors, const std::string& holes);
 
-/// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a column to its right.
+/// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a
+/// column to its right.
 struct MipChain {
     glm::ivec2 size{0};
-    std::vector<std::vector<std::uint8_t>> pixels;   ///< RGBA per level
+    std::vector<std::vector<std::uint8_t>> pixels;  ///< RGBA per level
 
     int levels() const { return static_cast<int>(pixels.size()); }
     glm::ivec2 levelSize(int level) const { return glm::max(size >> level, glm::ivec2(1)); }
@@ -34,8 +36,8 @@ struct MipChain {
     }
 };
 
-/// With `hasHoles` every level keeps the share of texels whose alpha is at least one half, and levels end where that is no longer possible: fine leaves
-/// neither vanish in the distance nor close.
+/// With `hasHoles` every level keeps the share of texels whose alpha is at least one half, and levels end where that is
+/// no longer possible: fine leaves neither vanish in the distance nor close.
 MipChain makeMipChain(Image texture, bool hasHoles);
 
 }  // namespace limn

@@ -44,25 +44,33 @@ struct ViewConstants {
 };
 
 constexpr Field kViewConstants[] = {
-    field<&ViewConstants::clipFromView>("clipFromView", {.doc = "Clip space of what triangles are drawn into at once; depth reversed, 0…1."}),
-    field<&ViewConstants::worldFromView>("worldFromView", {.doc = "Directions only need its upper 3×3."}),
-    field<&ViewConstants::rayScaleExact>("rayScaleExact", {.doc = "rayScale in double precision."}),
-    field<&ViewConstants::rayOffsetExact>("rayOffsetExact", {.doc = "rayOffset in double precision."}),
-    field<&ViewConstants::rayScale>("rayScale", {.doc = "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."}),
-    field<&ViewConstants::rayOffset>("rayOffset", {.doc = "See rayScale."}),
-    field<&ViewConstants::samplePlace>("samplePlace", {.unit = "pixels", .doc = "Where the sample's rays go within their pixels, from the centre."}),
-    field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels", .doc = "Of what clip space spans."}),
-    field<&ViewConstants::placeInCanvas>("placeInCanvas", {.unit = "pixels", .doc = "Lower left of the region drawn, in that."}),
-    field<&ViewConstants::origin>("origin", {.unit = "pixels", .doc = "Lower left of the region drawn, in the picture: negative where the guard band begins."}),
-    field<&ViewConstants::size>("size", {.unit = "pixels", .doc = "Of the region drawn: the size of every screen texture."}),
-    field<&ViewConstants::placeOnRaster>("placeOnRaster", {.unit = "fine pixels", .doc = "Which fine pixel of each pixel this sample looks at."}),
-    field<&ViewConstants::raster>("raster", {.doc = "Fine pixels per pixel, each way, of what is drawn once for several samples."}),
-    field<&ViewConstants::sample>("sampleNumber", {.doc = "Number of the sample within a pixel."}),
-    field<&ViewConstants::seed>("seed", {.doc = "Of all randomness in this frame."}),
-    field<&ViewConstants::unit>("unit", {.doc = "Normalized units per scene unit: a power of two."}),
-    field<&ViewConstants::near>("near", {.unit = "normalized units", .doc = "Nearest depth drawn."}),
-    field<&ViewConstants::far>("far", {.unit = "normalized units", .doc = "Depth that paper modes take for the far end."}),
-    field<&ViewConstants::clipFar>("clipFar", {.unit = "normalized units", .doc = "Depth beyond everything, where orthographic depth ends."}),
+    field<&ViewConstants::clipFromView>(
+        "clipFromView", "Clip space of what triangles are drawn into at once; depth reversed, 0…1."),
+    field<&ViewConstants::worldFromView>("worldFromView", "Directions only need its upper 3×3."),
+    field<&ViewConstants::rayScaleExact>("rayScaleExact", "rayScale in double precision."),
+    field<&ViewConstants::rayOffsetExact>("rayOffsetExact", "rayOffset in double precision."),
+    field<&ViewConstants::rayScale>(
+        "rayScale", "View-space xy at unit depth (orthographic: xy) = (pixel + 0.5) * rayScale + rayOffset."),
+    field<&ViewConstants::rayOffset>("rayOffset", "See rayScale."),
+    field<&ViewConstants::samplePlace>(
+        "samplePlace", {.unit = "pixels"}, "Where the sample's rays go within their pixels, from the centre."),
+    field<&ViewConstants::canvasSize>("canvasSize", {.unit = "pixels"}, "Of what clip space spans."),
+    field<&ViewConstants::placeInCanvas>(
+        "placeInCanvas", {.unit = "pixels"}, "Lower left of the region drawn, in that."),
+    field<&ViewConstants::origin>("origin", {.unit = "pixels"},
+        "Lower left of the region drawn, in the picture: negative where the guard band begins."),
+    field<&ViewConstants::size>("size", {.unit = "pixels"}, "Of the region drawn: the size of every screen texture."),
+    field<&ViewConstants::placeOnRaster>(
+        "placeOnRaster", {.unit = "fine pixels"}, "Which fine pixel of each pixel this sample looks at."),
+    field<&ViewConstants::raster>(
+        "raster", "Fine pixels per pixel, each way, of what is drawn once for several samples."),
+    field<&ViewConstants::sample>("sampleNumber", "Number of the sample within a pixel."),
+    field<&ViewConstants::seed>("seed", "Of all randomness in this frame."),
+    field<&ViewConstants::unit>("unit", "Normalized units per scene unit: a power of two."),
+    field<&ViewConstants::near>("near", {.unit = "normalized units"}, "Nearest depth drawn."),
+    field<&ViewConstants::far>("far", {.unit = "normalized units"}, "Depth that paper modes take for the far end."),
+    field<&ViewConstants::clipFar>(
+        "clipFar", {.unit = "normalized units"}, "Depth beyond everything, where orthographic depth ends."),
 };
 
 }  // namespace
@@ -95,7 +103,8 @@ bool View::runs(Pass::Rate rate) const {
 
 glm::dmat4 View::clipFromView() const {
     const glm::dvec2 size(canvas.size);
-    // ndc = 2·(pixel − canvas.origin)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at the pixel's corner: + 0.5 − 0.5.
+    // ndc = 2·(pixel − canvas.origin)/size − 1, and pixel (jitter is in the offset) = (xy − rasterOffset)/rayScale, at
+    // the pixel's corner: + 0.5 − 0.5.
     const glm::dvec2 scale = 2.0 / (rayScale * size);
     const glm::dvec2 offset = 2.0 * (glm::dvec2(-canvas.origin) - rasterOffset / rayScale) / size - 1.0;
     glm::dmat4 m(0);
@@ -119,7 +128,8 @@ glm::dmat4 View::clipFromView() const {
 
 int View::haloOf(double reach) const {
     const double footprint = rayScale.x * (orthographic ? 1 : nearest);
-    return footprint > 0 && reach < footprint * widestGuard ? static_cast<int>(std::ceil(reach / footprint)) : widestGuard;
+    return footprint > 0 && reach < footprint * widestGuard ? static_cast<int>(std::ceil(reach / footprint))
+                                                            : widestGuard;
 }
 
 glm::dmat4 View::worldFromView() const {
@@ -135,7 +145,8 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.keptGuard = request.keptGuard;
     view.widestGuard = request.widestGuard;
     const PixelRect picture{glm::ivec2(0), request.imageSize};
-    const PixelRect block = request.block.size.x > 0 ? request.block : picture, tile = request.tile.size.x > 0 ? request.tile : block;
+    const PixelRect block = request.block.size.x > 0 ? request.block : picture,
+                    tile = request.tile.size.x > 0 ? request.tile : block;
     view.canvas = {block.origin - request.guard, block.size + 2 * request.guard};
     view.region = {tile.origin - request.guard, tile.size + 2 * request.guard};
     view.split = request.split;
@@ -166,17 +177,20 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.rayScale = glm::dvec2(width / size.x);
     // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
     const double fine = 1.0 / view.split.raster;
-    const glm::dvec2 jitter = subFrameJitter(view.subFrame(), view.split.subFrames) * fine, place = (glm::dvec2(view.placeOnRaster()) + 0.5) * fine - 0.5;
+    const glm::dvec2 jitter = subFrameJitter(view.subFrame(), view.split.subFrames) * fine,
+                     place = (glm::dvec2(view.placeOnRaster()) + 0.5) * fine - 0.5;
     view.rasterOffset = view.rayScale * (jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
     view.rayOffset = view.rasterOffset + view.rayScale * place;
     view.samplePlace = jitter + place;
 
     Bounds depths;
     for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
-        const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x, corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
+        const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x,
+            corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
         depths.add(glm::dvec3(0, 0, -view.toView(p).z));
     }
-    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's size.
+    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's
+    // size.
     const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
     view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
     // Reversed float depth is as precise with a tiny near distance as with a large one.
@@ -203,12 +217,15 @@ Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize) {
     // As close as every corner of the box allows, with a margin of 6 %.
     camera.position = camera.lookAt + towards;
     const glm::dmat3 toView = glm::transpose(cameraBasis(camera, up));
-    const double halfWidth = camera.sensorWidth / camera.focalLength / 2, halfHeight = halfWidth * imageSize.y / imageSize.x;
+    const double halfWidth = camera.sensorWidth / camera.focalLength / 2,
+                 halfHeight = halfWidth * imageSize.y / imageSize.x;
     double distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z);
+        const glm::dvec3 p(
+            corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z);
         const glm::dvec3 q = toView * (p - camera.lookAt);
-        distance = std::max({distance, q.z + 1.06 * std::abs(q.x) / halfWidth, q.z + 1.06 * std::abs(q.y) / halfHeight});
+        distance =
+            std::max({distance, q.z + 1.06 * std::abs(q.x) / halfWidth, q.z + 1.06 * std::abs(q.y) / halfHeight});
     }
     camera.position = camera.lookAt + towards * distance;
     return camera;

@@ -1,11 +1,11 @@
 // One view of the scene: where the camera is, and which pixels and samples of the picture are drawn.
 //
-// Fine pixels. A picture of n samples per pixel is drawn as m sub-frames, each on a raster k times finer, n = k²·m. A fine raster is
-// k² ordinary sub-frames, interleaved: effects that think in output pixels step k fine pixels, so that what they draw does not depend
-// on how n was split.
+// Fine pixels. A picture of n samples per pixel is drawn as m sub-frames, each on a raster k times finer, n = k²·m. A
+// fine raster is k² ordinary sub-frames, interleaved: effects that think in output pixels step k fine pixels, so that
+// what they draw does not depend on how n was split.
 //
-// Normalized units. All lengths on the GPU are scene units times a power of two that brings the scene's diagonal to [1, 2): scenes of
-// any size give the same bits.
+// Normalized units. All lengths on the GPU are scene units times a power of two that brings the scene's diagonal to [1,
+// 2): scenes of any size give the same bits.
 #pragma once
 
 #include "geometry/tri_mesh.h"
@@ -16,7 +16,7 @@ namespace limn {
 
 /// Facts about the scene that effects may need.
 struct SceneInfo {
-    Bounds bounds;                  ///< of the drawn objects' vertices, at the first declared frame; scene units
+    Bounds bounds;  ///< of the drawn objects' vertices, at the first declared frame; scene units
     glm::dvec3 up{0, 1, 0};
 
     double diagonal() const { return bounds.diagonal(); }
@@ -24,8 +24,8 @@ struct SceneInfo {
     double unit() const;
 };
 
-/// How n samples are split: n = raster² · subFrames. A sub-frame's triangles are drawn once, on a raster finer than the picture; every pass
-/// after that runs once per sample, at the picture's own size, on every raster-th fine pixel.
+/// How n samples are split: n = raster² · subFrames. A sub-frame's triangles are drawn once, on a raster finer than the
+/// picture; every pass after that runs once per sample, at the picture's own size, on every raster-th fine pixel.
 struct SampleSplit {
     int raster = 1;
     int subFrames = 1;
@@ -34,64 +34,78 @@ struct SampleSplit {
     int samples() const { return perSubFrame() * subFrames; }
 };
 
-/// As fine a raster as divides n, fits the driver, and keeps its fine pixels below 2^24: triangles are then drawn least often.
+/// As fine a raster as divides n, fits the driver, and keeps its fine pixels below 2^24: triangles are then drawn least
+/// often.
 SampleSplit splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
 
 struct View {
-    glm::ivec2 imageSize{0};        ///< of the whole picture, in output pixels
-    int guard = 0;                  ///< pixels drawn around the picture, so that effects that look around themselves are right at its border
-    PixelRect canvas;               ///< what triangles are drawn into at once: the picture, or one of the blocks of a large one, and the guard band
-    PixelRect region;               ///< what effects draw: the canvas, or a tile of it and a guard band
+    glm::ivec2 imageSize{0};  ///< of the whole picture, in output pixels
+    int guard =
+        0;  ///< pixels drawn around the picture, so that effects that look around themselves are right at its border
+    PixelRect canvas;  ///< what triangles are drawn into at once: the picture, or one of the blocks of a large one, and
+                       ///< the guard band
+    PixelRect region;  ///< what effects draw: the canvas, or a tile of it and a guard band
     SampleSplit split;
-    int sample = 0;                 ///< of split.samples()
-    int aoSamples = 1, lineSamples = 1;   ///< in how many of them ambient occlusion, or lines, are found; at most all
+    int sample = 0;                      ///< of split.samples()
+    int aoSamples = 1, lineSamples = 1;  ///< in how many of them ambient occlusion, or lines, are found; at most all
     unsigned seed = 0;
 
     bool orthographic = false;
-    glm::dvec3 eye{0};              ///< camera position, world, scene units
-    /// World directions and offsets from the eye in scene units → view space in normalized units. Subtracting the eye first, in double,
-    /// is what keeps scenes far from the origin exact: there is no matrix with a large translation in it.
+    glm::dvec3 eye{0};  ///< camera position, world, scene units
+    /// World directions and offsets from the eye in scene units → view space in normalized units. Subtracting the eye
+    /// first, in double, is what keeps scenes far from the origin exact: there is no matrix with a large translation in
+    /// it.
     glm::dmat3 viewFromRelative{1};
-    /// Where the sample's ray through pixel p (counted from the picture's lower left) goes: its view-space xy at unit depth, or for an
-    /// orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in it.
+    /// Where the sample's ray through pixel p (counted from the picture's lower left) goes: its view-space xy at unit
+    /// depth, or for an orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in
+    /// it.
     glm::dvec2 rayScale{1}, rayOffset{0};
-    glm::dvec2 samplePlace{0};      ///< where the sample's rays go within their pixels: from the centre, in pixels
+    glm::dvec2 samplePlace{0};  ///< where the sample's rays go within their pixels: from the centre, in pixels
     /// rayOffset of the sub-frame as a whole, without the sample's place on the fine raster.
     glm::dvec2 rasterOffset{0};
-    double near = 0, far = 0;       ///< normalized units; only paper modes depend on `far`
-    double clipFar = 1;             ///< normalized units: beyond everything; orthographic depth is linear up to here
-    double unit = 1;                ///< normalized units per scene unit
-    double diagonal = 1;            ///< scene units
+    double near = 0, far = 0;  ///< normalized units; only paper modes depend on `far`
+    double clipFar = 1;        ///< normalized units: beyond everything; orthographic depth is linear up to here
+    double unit = 1;           ///< normalized units per scene unit
+    double diagonal = 1;       ///< scene units
     double dpi = 96;
-    double nearest = 0;             ///< depth of the nearest corner of the scene's box, or 0 where the eye is inside; normalized units
-    int keptGuard = 0;              ///< pixels of the guard band that are wanted with the picture
-    int widestGuard = 0;            ///< pixels: how wide a guard band effects may ask for
+    double nearest =
+        0;  ///< depth of the nearest corner of the scene's box, or 0 where the eye is inside; normalized units
+    int keptGuard = 0;    ///< pixels of the guard band that are wanted with the picture
+    int widestGuard = 0;  ///< pixels: how wide a guard band effects may ask for
 
     int subFrame() const { return sample / split.perSubFrame(); }
-    /// Which fine pixel of each pixel the sample looks at: samples that follow each other, and those at even distances, lie well apart.
+    /// Which fine pixel of each pixel the sample looks at: samples that follow each other, and those at even distances,
+    /// lie well apart.
     glm::ivec2 placeOnRaster() const {
-        const int place = (sample + subFrame() * (split.perSubFrame() / 2)) % split.perSubFrame(), row = place / split.raster;
+        const int place = (sample + subFrame() * (split.perSubFrame() / 2)) % split.perSubFrame(),
+                  row = place / split.raster;
         return {(place + row) % split.raster, row};
     }
-    /// Are lines found anew in this sample? They lie where the edges are, whichever sample sees them, so that a part of the samples is enough.
+    /// Are lines found anew in this sample? They lie where the edges are, whichever sample sees them, so that a part of
+    /// the samples is enough.
     bool findsLines() const { return isOneOf(lineSamples); }
     /// And ambient occlusion? It is smooth, and filtered to be smoother.
     bool findsOcclusion() const { return isOneOf(aoSamples); }
     /// How many samples of a frame run the passes of a rate other than subFrame and frame.
-    int samplesAt(Pass::Rate rate) const { return rate == Pass::Rate::occlusion ? aoSamples : rate == Pass::Rate::line ? lineSamples : split.samples(); }
+    int samplesAt(Pass::Rate rate) const {
+        return rate == Pass::Rate::occlusion ? aoSamples : rate == Pass::Rate::line ? lineSamples : split.samples();
+    }
     /// Do passes of the rate run in this sample?
     bool runs(Pass::Rate rate) const;
     /// Does the sample belong to so many that are spread evenly over all of them?
-    bool isOneOf(int some) const { return sample == 0 || sample * some / split.samples() != (sample - 1) * some / split.samples(); }
-    /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far (perspective) or linear (orthographic).
+    bool isOneOf(int some) const {
+        return sample == 0 || sample * some / split.samples() != (sample - 1) * some / split.samples();
+    }
+    /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far
+    /// (perspective) or linear (orthographic).
     glm::dmat4 clipFromView() const;
     glm::dvec3 toView(const glm::dvec3& world) const { return viewFromRelative * (world - eye); }
     glm::dmat4 worldFromView() const;
     /// A length of a parameter in normalized units.
     double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
     double pixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi); }
-    /// How far around a pixel an effect of this reach (normalized units) may look, in pixels: at the nearest surface there can be, but no
-    /// farther than the guard band may be wide.
+    /// How far around a pixel an effect of this reach (normalized units) may look, in pixels: at the nearest surface
+    /// there can be, but no farther than the guard band may be wide.
     int haloOf(double reach) const;
     /// Does a halo hold all that an effect would look at, or was it cut at the guard band's widest?
     bool holds(int halo) const { return halo < widestGuard; }
@@ -99,12 +113,12 @@ struct View {
 
 struct ViewRequest {
     glm::ivec2 imageSize{1280, 720};
-    PixelRect block, tile;          ///< of the picture; empty: all of it
-    int guard = 0, keptGuard = 0, widestGuard = 0;   ///< see View
+    PixelRect block, tile;                          ///< of the picture; empty: all of it
+    int guard = 0, keptGuard = 0, widestGuard = 0;  ///< see View
     SampleSplit split;
     int sample = 0;
-    int aoSamples = 0;              ///< 0: a half of them, but at least four
-    int lineSamples = 0;            ///< 0: a quarter of them, but at least four
+    int aoSamples = 0;    ///< 0: a half of them, but at least four
+    int lineSamples = 0;  ///< 0: a quarter of them, but at least four
     unsigned seed = 0;
     double dpi = 96;
 };

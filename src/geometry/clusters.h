@@ -1,4 +1,5 @@
-// Triangles in small groups with boxes around them, so that what cannot be seen is found without looking at every triangle.
+// Triangles in small groups with boxes around them, so that what cannot be seen is found without looking at every
+// triangle.
 #pragma once
 
 #include "geometry/tri_mesh.h"

@@ -1,4 +1,5 @@
-// The bridge to OpenSubdiv's Far: cages as topology refiners. Only subdivision includes it, since OpenSubdiv's headers are large.
+// The bridge to OpenSubdiv's Far: cages as topology refiners. Only subdivision includes it, since OpenSubdiv's headers
+// are large.
 #pragma once
 
 #include "geometry/subdivide.h"
@@ -20,10 +21,11 @@ struct Value {
 
 }  // namespace far
 
-/// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without have the value after the last).
-/// Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left out. Throws Error (internal) if
-/// OpenSubdiv refuses.
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(const PolyMesh& cage, const SubdivisionOptions& options, bool withUvs);
+/// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without have the value
+/// after the last). Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left out.
+/// Throws Error (internal) if OpenSubdiv refuses.
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(
+    const PolyMesh& cage, const SubdivisionOptions& options, bool withUvs);
 
 /// Levels until the last semi-sharp crease or corner has gone smooth.
 int levelsOfCreases(const SubdivisionTags& tags);

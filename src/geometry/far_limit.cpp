@@ -7,7 +7,9 @@ namespace limn {
 using namespace OpenSubdiv;
 using far::Value;
 
-FarLimit::FarLimit(Far::TopologyRefiner& refiner, int depth, const std::vector<glm::dvec3>& points, const std::vector<glm::dvec2>& uvs) : ptex_(refiner) {
+FarLimit::FarLimit(
+    Far::TopologyRefiner& refiner, int depth, const std::vector<glm::dvec3>& points, const std::vector<glm::dvec2>& uvs)
+    : ptex_(refiner) {
     Far::PatchTableFactory::Options options(depth);
     options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
     options.SetPatchPrecision<double>();
@@ -30,11 +32,14 @@ FarLimit::FarLimit(Far::TopologyRefiner& refiner, int depth, const std::vector<g
         primvars.Interpolate(level, from, to);
         from = to;
     }
-    if (table_->GetNumLocalPoints() > 0) table_->GetLocalPointStencilTable<double>()->UpdateValues(all.data(), all.data() + refiner.GetNumVerticesTotal());
+    if (table_->GetNumLocalPoints() > 0)
+        table_->GetLocalPointStencilTable<double>()->UpdateValues(
+            all.data(), all.data() + refiner.GetNumVerticesTotal());
     for (const auto& value : all) points_.push_back(value.v);
 
     if (uvs.empty()) return;
-    std::vector<Value<2>> values(static_cast<std::size_t>(refiner.GetNumFVarValuesTotal(0) + table_->GetNumLocalPointsFaceVarying(0)));
+    std::vector<Value<2>> values(
+        static_cast<std::size_t>(refiner.GetNumFVarValuesTotal(0) + table_->GetNumLocalPointsFaceVarying(0)));
     for (std::size_t i = 0; i < uvs.size(); ++i) values[i].v = uvs[i];
     Value<2>* at = values.data();
     for (int level = 1; level <= refiner.GetMaxLevel(); ++level) {
@@ -42,20 +47,25 @@ FarLimit::FarLimit(Far::TopologyRefiner& refiner, int depth, const std::vector<g
         primvars.InterpolateFaceVarying(level, at, to, 0);
         at = to;
     }
-    if (table_->GetNumLocalPointsFaceVarying(0) > 0) table_->GetLocalPointFaceVaryingStencilTable<double>(0)->UpdateValues(values.data(), values.data() + refiner.GetNumFVarValuesTotal(0));
+    if (table_->GetNumLocalPointsFaceVarying(0) > 0)
+        table_->GetLocalPointFaceVaryingStencilTable<double>(0)->UpdateValues(
+            values.data(), values.data() + refiner.GetNumFVarValuesTotal(0));
     for (const auto& value : values) uvs_.push_back(value.v);
 }
 
-void FarLimit::evaluate(int face, int part, const glm::dvec2& st, glm::dvec3& point, glm::dvec3& ds, glm::dvec3& dt) const {
+void FarLimit::evaluate(
+    int face, int part, const glm::dvec2& st, glm::dvec3& point, glm::dvec3& ds, glm::dvec3& dt) const {
     point = ds = dt = glm::dvec3(0);
     const auto* patch = map_->FindPatch(ptex_.GetFaceId(face) + part, st.x, st.y);
     if (!patch) return;
-    double weights[20], weightsS[20], weightsT[20];   // the largest patch is Loop's Gregory triangle with 18
+    double weights[20], weightsS[20], weightsT[20];  // the largest patch is Loop's Gregory triangle with 18
     table_->EvaluateBasis(*patch, st.x, st.y, weights, weightsS, weightsT);
     const auto points = table_->GetPatchVertices(*patch);
     for (int i = 0; i < points.size(); ++i) {
         const glm::dvec3& p = points_[static_cast<std::size_t>(points[i])];
-        point += weights[i] * p, ds += weightsS[i] * p, dt += weightsT[i] * p;
+        point += weights[i] * p;
+        ds += weightsS[i] * p;
+        dt += weightsT[i] * p;
     }
 }
 

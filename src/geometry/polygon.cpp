@@ -10,7 +10,8 @@ namespace {
 struct Tessellation {
     std::vector<std::uint32_t> indices;
     bool failed = false;
-    std::vector<glm::dvec3>* points = nullptr;   ///< where crossings add theirs; null: the heaviest of the four vertices stands in for one
+    std::vector<glm::dvec3>* points =
+        nullptr;  ///< where crossings add theirs; null: the heaviest of the four vertices stands in for one
 };
 
 // Corners travel through GLU as pointers, counted from 1: null means "none" to it.
@@ -46,7 +47,8 @@ GLUtesselator* makeTessellator(const glm::dvec3& normal) {
 
 glm::dvec3 newellNormal(const std::vector<glm::dvec3>& polygon) {
     glm::dvec3 normal(0);
-    for (std::size_t i = 0; i < polygon.size(); ++i) normal += glm::cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        normal += glm::cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
     return normal;
 }
 
@@ -75,7 +77,8 @@ std::vector<std::uint32_t> triangulatePolygon(const std::vector<glm::dvec3>& pol
     gluTessBeginPolygon(tess, &result);
     gluTessBeginContour(tess);
     std::vector<glm::dvec3> points = polygon;
-    for (std::size_t i = 0; i < points.size(); ++i) gluTessVertex(tess, &points[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i + 1)));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        gluTessVertex(tess, &points[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i + 1)));
     gluTessEndContour(tess);
     gluTessEndPolygon(tess);
     gluDeleteTess(tess);
@@ -83,15 +86,17 @@ std::vector<std::uint32_t> triangulatePolygon(const std::vector<glm::dvec3>& pol
     return result.indices;
 }
 
-std::vector<std::uint32_t> triangulateOutlines(std::vector<glm::dvec3>& points, const std::vector<std::vector<std::uint32_t>>& outlines, const glm::dvec3& normal) {
+std::vector<std::uint32_t> triangulateOutlines(std::vector<glm::dvec3>& points,
+    const std::vector<std::vector<std::uint32_t>>& outlines, const glm::dvec3& normal) {
     if (outlines.empty()) return {};
     Tessellation result{{}, false, &points};
     GLUtesselator* tess = makeTessellator(normal);
-    std::vector<glm::dvec3> places = points;   // GLU keeps pointers while `points` may grow
+    std::vector<glm::dvec3> places = points;  // GLU keeps pointers while `points` may grow
     gluTessBeginPolygon(tess, &result);
     for (const auto& outline : outlines) {
         gluTessBeginContour(tess);
-        for (const auto i : outline) gluTessVertex(tess, &places[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i) + 1));
+        for (const auto i : outline)
+            gluTessVertex(tess, &places[i].x, reinterpret_cast<void*>(static_cast<std::uintptr_t>(i) + 1));
         gluTessEndContour(tess);
     }
     gluTessEndPolygon(tess);

@@ -9,7 +9,9 @@ namespace limn {
 namespace {
 
 /// A corner of a triangle: its place in each of the mesh's lists.
-struct Corner { std::uint32_t position, normal, uv, color; };
+struct Corner {
+    std::uint32_t position, normal, uv, color;
+};
 
 bool before(const glm::vec3& a, const glm::vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
@@ -24,7 +26,11 @@ struct PointHash {
 class Cutter {
 public:
     Cutter(const TriMesh& in, const CutPlane& plane, const MeshNeeds& needs) : in_(in), plane_(plane), needs_(needs) {
-        out_.pivot = in.pivot, out_.positions = in.positions, out_.normals = in.normals, out_.uvs = in.uvs, out_.colors = in.colors;
+        out_.pivot = in.pivot;
+        out_.positions = in.positions;
+        out_.normals = in.normals;
+        out_.uvs = in.uvs;
+        out_.colors = in.colors;
     }
 
     CutMesh cut() {
@@ -35,13 +41,18 @@ public:
             std::array<double, 3> h;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t i = 3 * t + k;
-                corners[k] = {in_.indices[i], in_.normalIndices.empty() ? 0 : in_.normalIndices[i], in_.uvIndices.empty() ? 0 : in_.uvIndices[i], in_.colorIndices.empty() ? 0 : in_.colorIndices[i]};
+                corners[k] = {in_.indices[i], in_.normalIndices.empty() ? 0 : in_.normalIndices[i],
+                    in_.uvIndices.empty() ? 0 : in_.uvIndices[i], in_.colorIndices.empty() ? 0 : in_.colorIndices[i]};
                 h[k] = height[corners[k].position];
             }
-            const std::uint32_t material = in_.triangleMaterial.empty() ? 0 : in_.triangleMaterial[t], part = in_.trianglePart.empty() ? 0 : in_.trianglePart[t];
-            const int above = static_cast<int>(std::count_if(h.begin(), h.end(), [](double value) { return value > 0; }));
-            if (above == 0) add(corners, material, part);
-            else if (above < 3) split(corners, h, material, part);
+            const std::uint32_t material = in_.triangleMaterial.empty() ? 0 : in_.triangleMaterial[t],
+                                part = in_.trianglePart.empty() ? 0 : in_.trianglePart[t];
+            const int above =
+                static_cast<int>(std::count_if(h.begin(), h.end(), [](double value) { return value > 0; }));
+            if (above == 0)
+                add(corners, material, part);
+            else if (above < 3)
+                split(corners, h, material, part);
         }
         fill();
         return {std::move(out_), open_};
@@ -79,9 +90,10 @@ private:
         return made;
     }
 
-    void split(const std::array<Corner, 3>& corners, const std::array<double, 3>& h, std::uint32_t material, std::uint32_t part) {
+    void split(const std::array<Corner, 3>& corners, const std::array<double, 3>& h, std::uint32_t material,
+        std::uint32_t part) {
         std::vector<Corner> kept;
-        std::array<Corner, 2> ends{};   // where the outline enters what is kept, and leaves it
+        std::array<Corner, 2> ends{};  // where the outline enters what is kept, and leaves it
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             if (h[k] <= 0) kept.push_back(corners[k]);
@@ -101,7 +113,8 @@ private:
     }
 
     void fill() {
-        // Outlines are walked from point to point; where several leave a point any will do, winding decides what is inside.
+        // Outlines are walked from point to point; where several leave a point any will do, winding decides what is
+        // inside.
         std::vector<glm::dvec3> points;
         std::unordered_map<glm::vec3, std::uint32_t, PointHash> number;
         const auto numberOf = [&](const glm::vec3& p) {
@@ -113,21 +126,31 @@ private:
         for (const auto& [from, to] : outline_) onward.emplace(numberOf(from), numberOf(to));
         // Lines that do not close begin where more leaves than comes; those first, from their ends.
         std::vector<int> surplus(points.size());
-        for (const auto& [from, to] : onward) ++surplus[from], --surplus[to];
+        for (const auto& [from, to] : onward) {
+            ++surplus[from];
+            --surplus[to];
+        }
         std::vector<std::uint32_t> starts;
-        for (std::uint32_t i = 0; i < surplus.size(); ++i) starts.insert(starts.end(), static_cast<std::size_t>(std::max(surplus[i], 0)), i);
+        for (std::uint32_t i = 0; i < surplus.size(); ++i)
+            starts.insert(starts.end(), static_cast<std::size_t>(std::max(surplus[i], 0)), i);
         std::vector<std::vector<std::uint32_t>> outlines;
         while (!onward.empty()) {
             auto next = onward.begin();
-            if (!starts.empty()) next = onward.find(starts.back()), starts.pop_back();
+            if (!starts.empty()) {
+                next = onward.find(starts.back());
+                starts.pop_back();
+            }
             if (next == onward.end()) continue;
             std::vector<std::uint32_t> line{next->first};
-            for (; next != onward.end() && (line.size() == 1 || line.back() != line.front()); next = onward.find(line.back())) {
+            for (; next != onward.end() && (line.size() == 1 || line.back() != line.front());
+                 next = onward.find(line.back())) {
                 line.push_back(next->second);
                 onward.erase(next);
             }
-            if (line.back() != line.front()) ++open_;
-            else if (line.pop_back(); line.size() >= 3) outlines.push_back(std::move(line));
+            if (line.back() != line.front())
+                ++open_;
+            else if (line.pop_back(); line.size() >= 3)
+                outlines.push_back(std::move(line));
         }
         const glm::dvec3 normal = glm::normalize(plane_.gradient);
         const auto triangles = triangulateOutlines(points, outlines, normal);
@@ -135,14 +158,18 @@ private:
         const auto firstPoint = static_cast<std::uint32_t>(out_.positions.size());
         out_.positions.insert(out_.positions.end(), points.begin(), points.end());
         // Attributes: one for all where they have lists of their own, else beside the positions.
-        const auto firstNormal = static_cast<std::uint32_t>(out_.normals.size()), firstUv = static_cast<std::uint32_t>(out_.uvs.size());
-        if (needs_.normals) out_.normals.insert(out_.normals.end(), needs_.unified ? points.size() : 1, glm::vec3(normal));
+        const auto firstNormal = static_cast<std::uint32_t>(out_.normals.size()),
+                   firstUv = static_cast<std::uint32_t>(out_.uvs.size());
+        if (needs_.normals)
+            out_.normals.insert(out_.normals.end(), needs_.unified ? points.size() : 1, glm::vec3(normal));
         if (needs_.uvs) out_.uvs.insert(out_.uvs.end(), needs_.unified ? points.size() : 1, glm::vec2(0));
         const auto firstColor = static_cast<std::uint32_t>(out_.colors.size());
-        if (!out_.colors.empty()) out_.colors.insert(out_.colors.end(), needs_.unified ? points.size() : 1, glm::vec3(1));
+        if (!out_.colors.empty())
+            out_.colors.insert(out_.colors.end(), needs_.unified ? points.size() : 1, glm::vec3(1));
         for (std::size_t i = 0; i < triangles.size(); i += 3) {
             std::array<Corner, 3> corners;
-            for (std::size_t k = 0; k < 3; ++k) corners[k] = {firstPoint + triangles[i + k], firstNormal, firstUv, firstColor};
+            for (std::size_t k = 0; k < 3; ++k)
+                corners[k] = {firstPoint + triangles[i + k], firstNormal, firstUv, firstColor};
             add(corners, plane_.material, plane_.part);
         }
     }
@@ -158,9 +185,12 @@ private:
 }  // namespace
 
 bool isCut(const TriMesh& mesh, const CutPlane& plane) {
-    return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) { return plane.height(p) > 0; });
+    return std::any_of(
+        mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) { return plane.height(p) > 0; });
 }
 
-CutMesh cutMesh(const TriMesh& mesh, const CutPlane& plane, const MeshNeeds& needs) { return Cutter(mesh, plane, needs).cut(); }
+CutMesh cutMesh(const TriMesh& mesh, const CutPlane& plane, const MeshNeeds& needs) {
+    return Cutter(mesh, plane, needs).cut();
+}
 
 }  // namespace limn

@@ -19,14 +19,15 @@ namespace limn {
 namespace {
 
 using namespace OpenSubdiv;
-using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
+using Factory = Bfr::RefinerSurfaceFactory<Bfr::SurfaceFactoryCacheThreaded<std::shared_mutex,
+    std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
 
 const Bfr::Surface<double>::PointDescriptor kPoint(3), kUv(2), kColor(3);
 
 /// How a face is cut: the same for all faces of a size with the same rates.
 struct Pattern {
-    std::vector<glm::dvec2> coords;         ///< boundary first: each corner, then the points of the edge after it
-    std::vector<std::uint32_t> facets;      ///< three coords per triangle
+    std::vector<glm::dvec2> coords;     ///< boundary first: each corner, then the points of the edge after it
+    std::vector<std::uint32_t> facets;  ///< three coords per triangle
     std::size_t boundary = 0;
 
     std::size_t interior() const { return coords.size() - boundary; }
@@ -47,7 +48,8 @@ Pattern makePattern(const Bfr::Parameterization& parameterization, const std::ve
     return pattern;
 }
 
-/// A place well inside the face, or inside the part of it that uv lies in: n-gons are parametrized by one quarter square per corner.
+/// A place well inside the face, or inside the part of it that uv lies in: n-gons are parametrized by one quarter
+/// square per corner.
 glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
     switch (p.GetType()) {
         case Bfr::Parameterization::TRI: return {1.0 / 3, 1.0 / 3};
@@ -58,8 +60,17 @@ glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
 
 class Tessellator {
 public:
-    Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot, bool byBfr)
-        : cage_(cage), options_(options), needs_(needs), pivot_(pivot), byBfr_(byBfr), withUvs_(needs.uvs && !cage.cornerUv.empty()), withColors_(needs.colors && !cage.colors.empty()), refiner_(makeRefiner(cage, options, withUvs_)), base_(refiner_->GetLevel(0)) {}
+    Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs,
+        const glm::dvec3& pivot, bool byBfr)
+        : cage_(cage),
+          options_(options),
+          needs_(needs),
+          pivot_(pivot),
+          byBfr_(byBfr),
+          withUvs_(needs.uvs && !cage.cornerUv.empty()),
+          withColors_(needs.colors && !cage.colors.empty()),
+          refiner_(makeRefiner(cage, options, withUvs_)),
+          base_(refiner_->GetLevel(0)) {}
 
     TriMesh run() {
         findRates();
@@ -67,7 +78,9 @@ public:
         for (const auto& p : cage_.positions) points_.push_back(p - pivot_);
         if (withUvs_) uvPoints_ = uvValues(cage_);
         if (withColors_) colorPoints_.assign(cage_.colors.begin(), cage_.colors.end());
-        if (!byBfr_) patches_ = std::make_unique<FarLimit>(*refiner_, std::clamp(levelsOfCreases(cage_.tags), 6, 9), points_, uvPoints_);
+        if (!byBfr_)
+            patches_ = std::make_unique<FarLimit>(
+                *refiner_, std::clamp(levelsOfCreases(cage_.tags), 6, 9), points_, uvPoints_);
         const Factory factory(*refiner_, factoryOptions());
         layOut(factory);
         tbb::enumerable_thread_specific<Scratch> scratch;
@@ -90,7 +103,10 @@ private:
         if (!options_.edgeRate) return;
         tbb::parallel_for(0, base_.GetNumEdges(), [&](int e) {
             const auto ends = base_.GetEdgeVertices(e);
-            rate_[static_cast<std::size_t>(e)] = std::clamp(options_.edgeRate(cage_.positions[static_cast<std::size_t>(ends[0])], cage_.positions[static_cast<std::size_t>(ends[1])]), 1, 1 << options_.level);
+            rate_[static_cast<std::size_t>(e)] =
+                std::clamp(options_.edgeRate(cage_.positions[static_cast<std::size_t>(ends[0])],
+                               cage_.positions[static_cast<std::size_t>(ends[1])]),
+                    1, 1 << options_.level);
         });
     }
 
@@ -100,18 +116,21 @@ private:
         sharpEdge_.resize(static_cast<std::size_t>(base_.GetNumEdges()));
         sharpVertex_.resize(static_cast<std::size_t>(base_.GetNumVertices()));
         for (int e = 0; e < base_.GetNumEdges(); ++e)
-            sharpEdge_[static_cast<std::size_t>(e)] = base_.GetEdgeFaces(e).size() > 1 && (all || Sdc::Crease::IsInfinite(base_.GetEdgeSharpness(e)) || base_.IsEdgeNonManifold(e));
+            sharpEdge_[static_cast<std::size_t>(e)] = base_.GetEdgeFaces(e).size() > 1
+                && (all || Sdc::Crease::IsInfinite(base_.GetEdgeSharpness(e)) || base_.IsEdgeNonManifold(e));
         for (int v = 0; v < base_.GetNumVertices(); ++v) {
             int edges = 0;
             for (const auto e : base_.GetVertexEdges(v)) edges += sharpEdge_[static_cast<std::size_t>(e)];
             // One sharp edge that ends here is a dart: smooth. So is a rim that nothing sharp runs into.
-            sharpVertex_[static_cast<std::size_t>(v)] = all || base_.IsVertexNonManifold(v) || Sdc::Crease::IsInfinite(base_.GetVertexSharpness(v)) || edges > (base_.IsVertexBoundary(v) ? 0 : 1);
+            sharpVertex_[static_cast<std::size_t>(v)] = all || base_.IsVertexNonManifold(v)
+                || Sdc::Crease::IsInfinite(base_.GetVertexSharpness(v)) || edges > (base_.IsVertexBoundary(v) ? 0 : 1);
         }
     }
 
     Factory::Options factoryOptions() const {
         const int most = rate_.empty() ? 1 : *std::max_element(rate_.begin(), rate_.end());
-        // Bfr's own 2 and 6 leave errors of a hundredth of the diagonal and of many degrees; these cost a third more time.
+        // Bfr's own 2 and 6 leave errors of a hundredth of the diagonal and of many degrees; these cost a third more
+        // time.
         int fine = std::max(4, static_cast<int>(std::bit_width(static_cast<unsigned>(most - 1)))) + 1;
         if (const int creases = levelsOfCreases(cage_.tags); creases > 0) fine = std::max(fine, creases + 2);
         Factory::Options options;
@@ -126,27 +145,32 @@ private:
         std::vector<int> rates;
         for (const auto e : edges) rates.push_back(rate_[static_cast<std::size_t>(e)]);
         // Inner rates too: Bfr's own choice makes fans of quads whose edges are not cut.
-        if (edges.size() == 4) rates.push_back(std::max(rates[0], rates[2])), rates.push_back(std::max(rates[1], rates[3]));
-        else rates.push_back(*std::max_element(rates.begin(), rates.end()));
+        if (edges.size() == 4) {
+            rates.push_back(std::max(rates[0], rates[2]));
+            rates.push_back(std::max(rates[1], rates[3]));
+        } else
+            rates.push_back(*std::max_element(rates.begin(), rates.end()));
         return rates;
     }
 
     const Pattern& patternOf(const Factory& factory, int face, std::map<std::vector<int>, Pattern>& known) const {
         const std::vector<int> rates = ratesOf(face);
         std::vector<int> key = rates;
-        key.push_back(base_.GetFaceVertices(face).size());   // quads and pentagons have six rates both
+        key.push_back(base_.GetFaceVertices(face).size());  // quads and pentagons have six rates both
         const auto found = known.find(key);
         if (found != known.end()) return found->second;
-        if (known.size() > 2000) known.clear();   // rates fitted to a view repeat little
+        if (known.size() > 2000) known.clear();  // rates fitted to a view repeat little
         Pattern pattern = makePattern(factory.GetFaceParameterization(face), rates);
         return known.emplace(std::move(key), std::move(pattern)).first->second;
     }
 
     bool sharpAt(int face, int corner, bool atVertex) const {
-        return atVertex ? sharpVertex_[static_cast<std::size_t>(base_.GetFaceVertices(face)[corner])] : sharpEdge_[static_cast<std::size_t>(base_.GetFaceEdges(face)[corner])];
+        return atVertex ? sharpVertex_[static_cast<std::size_t>(base_.GetFaceVertices(face)[corner])]
+                        : sharpEdge_[static_cast<std::size_t>(base_.GetFaceEdges(face)[corner])];
     }
 
-    /// Calls use(i, corner, k) for each boundary coord i of a face: k = 0 at the corner, else the k-th point of the edge after it.
+    /// Calls use(i, corner, k) for each boundary coord i of a face: k = 0 at the corner, else the k-th point of the
+    /// edge after it.
     template <class Use>
     void forBoundary(int face, Use&& use) const {
         const auto edges = base_.GetFaceEdges(face);
@@ -187,8 +211,12 @@ private:
             edgeStart_.push_back(static_cast<std::uint32_t>(next));
             next += static_cast<std::size_t>(rate_[static_cast<std::size_t>(e)] - 1);
         }
-        const auto place = [](const std::vector<std::uint32_t>& counts, std::size_t start, std::vector<std::uint32_t>& starts) {
-            for (const auto count : counts) starts.push_back(static_cast<std::uint32_t>(start)), start += count;
+        const auto place = [](const std::vector<std::uint32_t>& counts, std::size_t start,
+                               std::vector<std::uint32_t>& starts) {
+            for (const auto count : counts) {
+                starts.push_back(static_cast<std::uint32_t>(start));
+                start += count;
+            }
             return start;
         };
         const std::size_t positions = place(interior, next, interiorStart_);
@@ -198,10 +226,21 @@ private:
         out_.pivot = pivot_;
         out_.positions.resize(positions);
         out_.indices.resize(3 * count);
-        if (needs_.normals) out_.normals.resize(normals), out_.normalIndices.resize(3 * count);
-        if (needs_.uvs) out_.uvs.resize(withUvs_ ? allCoords : 1), out_.uvIndices.resize(3 * count);
-        if (withColors_) out_.colors.resize(allCoords), out_.colorIndices.resize(3 * count);
-        const auto any = [](const auto& values) { return std::any_of(values.begin(), values.end(), [](auto v) { return v != 0; }); };
+        if (needs_.normals) {
+            out_.normals.resize(normals);
+            out_.normalIndices.resize(3 * count);
+        }
+        if (needs_.uvs) {
+            out_.uvs.resize(withUvs_ ? allCoords : 1);
+            out_.uvIndices.resize(3 * count);
+        }
+        if (withColors_) {
+            out_.colors.resize(allCoords);
+            out_.colorIndices.resize(3 * count);
+        }
+        const auto any = [](const auto& values) {
+            return std::any_of(values.begin(), values.end(), [](auto v) { return v != 0; });
+        };
         if (any(cage_.faceMaterial)) out_.triangleMaterial.resize(count);
         if (any(cage_.facePart)) out_.trianglePart.resize(count);
     }
@@ -233,13 +272,15 @@ private:
             if (k == 0) {
                 const auto v = static_cast<std::size_t>(vertices[corner]);
                 place.position = static_cast<std::uint32_t>(v);
-                owns = vertexOwner_[v] == face, sharp = sharpVertex_[v];
+                owns = vertexOwner_[v] == face;
+                sharp = sharpVertex_[v];
             } else {
                 const auto e = static_cast<std::size_t>(edges[corner]);
                 // The edge's own direction decides the order of its points; a face may run along it the other way.
                 const bool forward = base_.GetEdgeVertices(edges[corner])[0] == vertices[corner];
                 place.position = edgeStart_[e] + static_cast<std::uint32_t>(forward ? k - 1 : rate_[e] - 1 - k);
-                owns = edgeOwner_[e] == face, sharp = sharpEdge_[e];
+                owns = edgeOwner_[e] == face;
+                sharp = sharpEdge_[e];
             }
             place.writesPosition = owns;
             place.normal = sharp ? ownNormal++ : place.position;
@@ -254,8 +295,10 @@ private:
             const bool normal = needs_.normals && place.writesNormal;
             if (!place.writesPosition && !normal) continue;
             glm::dvec3 point, du, dv;
-            if (normal) evaluateAt(s, pattern.coords[i], point, du, dv);
-            else evaluateAt(s, pattern.coords[i], point);
+            if (normal)
+                evaluateAt(s, pattern.coords[i], point, du, dv);
+            else
+                evaluateAt(s, pattern.coords[i], point);
             if (place.writesPosition) out_.positions[place.position] = point;
             if (normal) out_.normals[place.normal] = normalAt(s, pattern.coords[i], du, dv);
         }
@@ -265,9 +308,10 @@ private:
                 s.uvPatch.resize(static_cast<std::size_t>(s.uvSurface.GetNumPatchPoints()) * 2);
                 s.uvSurface.PreparePatchPoints(&uvPoints_.data()->x, kUv, s.uvPatch.data(), kUv);
             }
-            for (std::size_t i = 0; i < pattern.coords.size(); ++i) out_.uvs[coordStart_[f] + i] = uvAt(s, pattern.coords[i]);
+            for (std::size_t i = 0; i < pattern.coords.size(); ++i)
+                out_.uvs[coordStart_[f] + i] = uvAt(s, pattern.coords[i]);
         }
-        if (withColors_) {   // bilinear between the cage's vertices
+        if (withColors_) {  // bilinear between the cage's vertices
             factory.InitVaryingSurface(face, &s.colorSurface);
             s.colorPatch.resize(static_cast<std::size_t>(s.colorSurface.GetNumPatchPoints()) * 3);
             s.colorSurface.PreparePatchPoints(&colorPoints_.data()->x, kColor, s.colorPatch.data(), kColor);
@@ -322,7 +366,8 @@ private:
         return patches_->uv(s.face, part, st);
     }
 
-    /// Derivatives vanish at smooth corners of rims, collapsed edges and the like: there the normal just inside the face is the limit.
+    /// Derivatives vanish at smooth corners of rims, collapsed edges and the like: there the normal just inside the
+    /// face is the limit.
     glm::vec3 normalAt(Scratch& s, const glm::dvec2& uv, glm::dvec3 du, glm::dvec3 dv) const {
         const auto unit = [](const glm::dvec3& a, const glm::dvec3& b) {
             const double product = glm::length(a) * glm::length(b);
@@ -347,31 +392,52 @@ private:
         if (needs_.normals) {
             const auto isZero = [](const glm::vec3& n) { return n == glm::vec3(0); };
             if (std::any_of(out_.normals.begin(), out_.normals.end(), isZero)) {
-                std::vector<glm::dvec3> sum(out_.normals.size(), glm::dvec3(0)), one(out_.normals.size(), glm::dvec3(0));
+                std::vector<glm::dvec3> sum(out_.normals.size(), glm::dvec3(0)),
+                    one(out_.normals.size(), glm::dvec3(0));
                 for (std::size_t t = 0; t < count; ++t) {
-                    const glm::dvec3 area = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t));
+                    const glm::dvec3 area =
+                        glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t));
                     for (std::size_t k = 0; k < 3; ++k) sum[out_.normalIndices[3 * t + k]] += area;
                     if (glm::length(area) > 0)
                         for (std::size_t k = 0; k < 3; ++k) one[out_.normalIndices[3 * t + k]] = area;
                 }
                 for (std::size_t i = 0; i < sum.size(); ++i)
-                    if (isZero(out_.normals[i]) && glm::length(one[i]) > 0) out_.normals[i] = glm::normalize(glm::length(sum[i]) > 1e-6 * glm::length(one[i]) ? sum[i] : one[i]);
+                    if (isZero(out_.normals[i]) && glm::length(one[i]) > 0)
+                        out_.normals[i] =
+                            glm::normalize(glm::length(sum[i]) > 1e-6 * glm::length(one[i]) ? sum[i] : one[i]);
             }
         }
         std::vector<char> keep(count);
-        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) { keep[t] = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t)) != glm::dvec3(0); });
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
+            keep[t] = glm::cross(position(3 * t + 1) - position(3 * t), position(3 * t + 2) - position(3 * t))
+                != glm::dvec3(0);
+        });
         if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return;
         std::size_t kept = 0;
         for (std::size_t t = 0; t < count; ++t) {
             if (!keep[t]) continue;
             const auto move = [&](std::vector<std::uint32_t>& values, std::size_t size) {
-                if (!values.empty()) std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size, values.begin() + static_cast<std::ptrdiff_t>(size * kept));
+                if (!values.empty())
+                    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size,
+                        values.begin() + static_cast<std::ptrdiff_t>(size * kept));
             };
-            move(out_.indices, 3), move(out_.normalIndices, 3), move(out_.uvIndices, 3), move(out_.colorIndices, 3), move(out_.triangleMaterial, 1), move(out_.trianglePart, 1);
+            move(out_.indices, 3);
+            move(out_.normalIndices, 3);
+            move(out_.uvIndices, 3);
+            move(out_.colorIndices, 3);
+            move(out_.triangleMaterial, 1);
+            move(out_.trianglePart, 1);
             ++kept;
         }
-        const auto cut = [&](std::vector<std::uint32_t>& values, std::size_t size) { if (!values.empty()) values.resize(size * kept); };
-        cut(out_.indices, 3), cut(out_.normalIndices, 3), cut(out_.uvIndices, 3), cut(out_.colorIndices, 3), cut(out_.triangleMaterial, 1), cut(out_.trianglePart, 1);
+        const auto cut = [&](std::vector<std::uint32_t>& values, std::size_t size) {
+            if (!values.empty()) values.resize(size * kept);
+        };
+        cut(out_.indices, 3);
+        cut(out_.normalIndices, 3);
+        cut(out_.uvIndices, 3);
+        cut(out_.colorIndices, 3);
+        cut(out_.triangleMaterial, 1);
+        cut(out_.trianglePart, 1);
     }
 
     const PolyMesh& cage_;
@@ -384,15 +450,18 @@ private:
     std::vector<int> rate_, vertexOwner_, edgeOwner_;
     std::vector<char> sharpEdge_, sharpVertex_, drawn_;
     std::vector<std::uint32_t> edgeStart_, interiorStart_, normalStart_, coordStart_, triangleStart_;
-    std::vector<glm::dvec3> points_;       ///< of the cage, relative to the pivot
+    std::vector<glm::dvec3> points_;  ///< of the cage, relative to the pivot
     std::vector<glm::dvec2> uvPoints_;
     std::vector<glm::dvec3> colorPoints_;
-    std::unique_ptr<FarLimit> patches_;    ///< unless by Bfr
+    std::unique_ptr<FarLimit> patches_;  ///< unless by Bfr
     TriMesh out_;
 };
 
 }  // namespace
 
-TriMesh tessellate(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs, const glm::dvec3& pivot, bool byBfr) { return Tessellator(cage, options, needs, pivot, byBfr).run(); }
+TriMesh tessellate(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs,
+    const glm::dvec3& pivot, bool byBfr) {
+    return Tessellator(cage, options, needs, pivot, byBfr).run();
+}
 
 }  // namespace limn

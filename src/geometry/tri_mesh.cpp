@@ -18,7 +18,8 @@ struct Triangles {
 };
 
 bool isPlainQuad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    // Both triangles of the diagonal a–c look the same way: true for convex quads and for those that are concave at a or c.
+    // Both triangles of the diagonal a–c look the same way: true for convex quads and for those that are concave at a
+    // or c.
     return glm::dot(glm::cross(b - a, c - a), glm::cross(c - a, d - a)) > 0;
 }
 
@@ -27,7 +28,9 @@ Triangles triangulate(const PolyMesh& mesh, bool wantFaces) {
     std::vector<char> special(faces);
     tbb::parallel_for(std::size_t{0}, faces, [&](std::size_t f) {
         const std::size_t start = mesh.faceStart[f], size = mesh.faceStart[f + 1] - start;
-        const auto position = [&](std::size_t i) -> const glm::dvec3& { return mesh.positions[mesh.cornerPosition[start + i]]; };
+        const auto position = [&](std::size_t i) -> const glm::dvec3& {
+            return mesh.positions[mesh.cornerPosition[start + i]];
+        };
         special[f] = size > 4 || (size == 4 && !isPlainQuad(position(0), position(1), position(2), position(3)));
     });
     std::unordered_map<std::size_t, std::vector<std::uint32_t>> filled;
@@ -52,9 +55,12 @@ Triangles triangulate(const PolyMesh& mesh, bool wantFaces) {
         if (special[f]) {
             for (const auto corner : filled.at(f)) *out++ = start + corner;
         } else {
-            for (std::uint32_t i = 1; i + 1 < mesh.faceStart[f + 1] - start; ++i) *out++ = start, *out++ = start + i, *out++ = start + i + 1;
+            for (std::uint32_t i = 1; i + 1 < mesh.faceStart[f + 1] - start; ++i)
+                *out++ = start, *out++ = start + i, *out++ = start + i + 1;
         }
-        if (wantFaces) std::fill(triangles.face.begin() + offset[f], triangles.face.begin() + offset[f + 1], static_cast<std::uint32_t>(f));
+        if (wantFaces)
+            std::fill(triangles.face.begin() + offset[f], triangles.face.begin() + offset[f + 1],
+                static_cast<std::uint32_t>(f));
     });
     return triangles;
 }
@@ -64,7 +70,9 @@ glm::dvec3 faceVector(const PolyMesh& mesh, std::size_t face) {
     const std::size_t start = mesh.faceStart[face], end = mesh.faceStart[face + 1];
     const auto& origin = mesh.positions[mesh.cornerPosition[start]];
     glm::dvec3 sum(0);
-    for (std::size_t c = start + 1; c + 1 < end; ++c) sum += glm::cross(mesh.positions[mesh.cornerPosition[c]] - origin, mesh.positions[mesh.cornerPosition[c + 1]] - origin);
+    for (std::size_t c = start + 1; c + 1 < end; ++c)
+        sum += glm::cross(
+            mesh.positions[mesh.cornerPosition[c]] - origin, mesh.positions[mesh.cornerPosition[c + 1]] - origin);
     return sum;
 }
 
@@ -76,39 +84,44 @@ std::vector<glm::vec3> makeCornerNormals(const PolyMesh& mesh) {
 
     std::vector<std::uint32_t> cornerFace(corners), first(mesh.positions.size() + 1, 0), around(corners);
     for (std::size_t f = 0; f < faces; ++f)
-        for (std::uint32_t c = mesh.faceStart[f]; c < mesh.faceStart[f + 1]; ++c) cornerFace[c] = static_cast<std::uint32_t>(f), ++first[mesh.cornerPosition[c] + 1];
+        for (std::uint32_t c = mesh.faceStart[f]; c < mesh.faceStart[f + 1]; ++c)
+            cornerFace[c] = static_cast<std::uint32_t>(f), ++first[mesh.cornerPosition[c] + 1];
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) first[v + 1] += first[v];
     auto next = first;
     for (std::uint32_t c = 0; c < corners; ++c) around[next[mesh.cornerPosition[c]]++] = c;
 
     const double smoothCosine = std::cos(glm::radians(kSmoothAngleDegrees));
     std::vector<glm::vec3> normals(corners);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.positions.size()), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t v = range.begin(); v < range.end(); ++v) {
-            for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
-                const std::uint32_t corner = around[i], face = cornerFace[corner];
-                const glm::dvec3 own = unitOrZero(vectors[face]);
-                glm::dvec3 sum(0);
-                // Vertices where thousands of faces meet (a cone's tip) would cost the square of that: there each face keeps its own.
-                const bool crowded = first[v + 1] - first[v] > 4096;
-                for (std::uint32_t j = first[v]; j < first[v + 1] && !crowded; ++j) {
-                    const std::uint32_t other = cornerFace[around[j]];
-                    const bool smooth = mesh.hasSmoothing ? mesh.faceSmoothing[face] != 0 && mesh.faceSmoothing[face] == mesh.faceSmoothing[other]
-                                                          : glm::dot(own, unitOrZero(vectors[other])) >= smoothCosine;
-                    if (smooth || other == face) sum += vectors[other];
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, mesh.positions.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t v = range.begin(); v < range.end(); ++v) {
+                for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
+                    const std::uint32_t corner = around[i], face = cornerFace[corner];
+                    const glm::dvec3 own = unitOrZero(vectors[face]);
+                    glm::dvec3 sum(0);
+                    // Vertices where thousands of faces meet (a cone's tip) would cost the square of that: there each
+                    // face keeps its own.
+                    const bool crowded = first[v + 1] - first[v] > 4096;
+                    for (std::uint32_t j = first[v]; j < first[v + 1] && !crowded; ++j) {
+                        const std::uint32_t other = cornerFace[around[j]];
+                        const bool smooth = mesh.hasSmoothing
+                            ? mesh.faceSmoothing[face] != 0 && mesh.faceSmoothing[face] == mesh.faceSmoothing[other]
+                            : glm::dot(own, unitOrZero(vectors[other])) >= smoothCosine;
+                        if (smooth || other == face) sum += vectors[other];
+                    }
+                    const glm::dvec3 unit = unitOrZero(crowded ? own : sum);
+                    normals[corner] = glm::dot(unit, unit) > 0 ? unit : own;
                 }
-                const glm::dvec3 unit = unitOrZero(crowded ? own : sum);
-                normals[corner] = glm::dot(unit, unit) > 0 ? unit : own;
             }
-        }
-    });
+        });
     return normals;
 }
 
 /// Gives each distinct (position, normal, uv) of a corner one vertex.
 class VertexGatherer {
 public:
-    VertexGatherer(const PolyMesh& mesh, TriMesh& out, const MeshNeeds& needs) : mesh_(mesh), out_(out), needs_(needs), head_(mesh.positions.size(), kNone) {}
+    VertexGatherer(const PolyMesh& mesh, TriMesh& out, const MeshNeeds& needs)
+        : mesh_(mesh), out_(out), needs_(needs), head_(mesh.positions.size(), kNone) {}
 
     std::vector<std::uint32_t> gather(const std::vector<glm::vec3>& made) {
         std::vector<std::uint32_t> cornerVertex(mesh_.cornerPosition.size());
@@ -116,9 +129,13 @@ public:
         next_.reserve(mesh_.positions.size());
         for (std::size_t c = 0; c < cornerVertex.size(); ++c) {
             glm::vec3 normal(0);
-            if (fileNormals && mesh_.cornerNormal[c] != PolyMesh::kNone) normal = unitOrZero(mesh_.normals[static_cast<std::size_t>(mesh_.cornerNormal[c])]);
-            else if (!made.empty()) normal = made[c];
-            const glm::vec2 uv = fileUvs && mesh_.cornerUv[c] != PolyMesh::kNone ? mesh_.uvs[static_cast<std::size_t>(mesh_.cornerUv[c])] : glm::vec2(0);
+            if (fileNormals && mesh_.cornerNormal[c] != PolyMesh::kNone)
+                normal = unitOrZero(mesh_.normals[static_cast<std::size_t>(mesh_.cornerNormal[c])]);
+            else if (!made.empty())
+                normal = made[c];
+            const glm::vec2 uv = fileUvs && mesh_.cornerUv[c] != PolyMesh::kNone
+                ? mesh_.uvs[static_cast<std::size_t>(mesh_.cornerUv[c])]
+                : glm::vec2(0);
             cornerVertex[c] = vertex(mesh_.cornerPosition[c], normal, uv);
         }
         return cornerVertex;
@@ -129,7 +146,8 @@ private:
 
     std::uint32_t vertex(std::uint32_t position, const glm::vec3& normal, const glm::vec2& uv) {
         std::uint32_t v = head_[position];
-        // A cone's tip may have a hundred thousand different normals: past a point, looking for one's like costs more than a vertex.
+        // A cone's tip may have a hundred thousand different normals: past a point, looking for one's like costs more
+        // than a vertex.
         for (int steps = 0; v != kNone && steps < 256; v = next_[v], ++steps)
             if ((!needs_.normals || out_.normals[v] == normal) && (!needs_.uvs || out_.uvs[v] == uv)) return v;
         v = static_cast<std::uint32_t>(out_.positions.size());
@@ -167,7 +185,7 @@ glm::dvec3 choosePivot(const PolyMesh& mesh) {
 void numberByLastVertex(TriMesh& mesh) {
     constexpr std::uint32_t none = ~0u;
     const std::size_t count = mesh.triangleCount();
-    std::vector<std::uint32_t> place(mesh.positions.size(), none);   // the first new vertex that holds each position
+    std::vector<std::uint32_t> place(mesh.positions.size(), none);  // the first new vertex that holds each position
     std::vector<glm::vec3> positions(count);
     for (std::uint32_t t = 0; t < count; ++t) {
         std::uint32_t* corner = mesh.indices.data() + std::size_t{3} * t;
@@ -176,9 +194,15 @@ void numberByLastVertex(TriMesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k)
             if (place[corner[k]] == none) last = k;
         const auto turn = [&](std::vector<std::uint32_t>& indices) {
-            if (!indices.empty()) std::rotate(indices.begin() + std::ptrdiff_t{3} * t, indices.begin() + std::ptrdiff_t{3} * t + static_cast<std::ptrdiff_t>((last + 1) % 3), indices.begin() + std::ptrdiff_t{3} * t + 3);
+            if (!indices.empty())
+                std::rotate(indices.begin() + std::ptrdiff_t{3} * t,
+                    indices.begin() + std::ptrdiff_t{3} * t + static_cast<std::ptrdiff_t>((last + 1) % 3),
+                    indices.begin() + std::ptrdiff_t{3} * t + 3);
         };
-        turn(mesh.indices), turn(mesh.normalIndices), turn(mesh.uvIndices), turn(mesh.colorIndices);
+        turn(mesh.indices);
+        turn(mesh.normalIndices);
+        turn(mesh.uvIndices);
+        turn(mesh.colorIndices);
         positions[t] = mesh.positions[corner[2]];
         if (place[corner[2]] == none) place[corner[2]] = t;
     }
@@ -210,11 +234,15 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
     const Triangles triangles = triangulate(mesh, wantMaterials || wantParts);
 
     std::vector<glm::vec3> made;
-    if (needs.normals && (mesh.cornerNormal.empty() || std::find(mesh.cornerNormal.begin(), mesh.cornerNormal.end(), PolyMesh::kNone) != mesh.cornerNormal.end())) {
+    if (needs.normals
+        && (mesh.cornerNormal.empty()
+            || std::find(mesh.cornerNormal.begin(), mesh.cornerNormal.end(), PolyMesh::kNone)
+                != mesh.cornerNormal.end())) {
         made = makeCornerNormals(mesh);
         if (!mesh.cornerNormal.empty())
             for (std::size_t c = 0; c < made.size(); ++c)
-                if (mesh.cornerNormal[c] != PolyMesh::kNone) made[c] = unitOrZero(mesh.normals[static_cast<std::size_t>(mesh.cornerNormal[c])]);
+                if (mesh.cornerNormal[c] != PolyMesh::kNone)
+                    made[c] = unitOrZero(mesh.normals[static_cast<std::size_t>(mesh.cornerNormal[c])]);
     }
     const bool fileNormals = needs.normals && made.empty();
     std::vector<std::uint32_t> cornerVertex;
@@ -222,30 +250,43 @@ TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm:
         cornerVertex = VertexGatherer(mesh, out, needs).gather(made);
     } else {
         out.positions.resize(mesh.positions.size());
-        tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) { out.positions[i] = glm::vec3(mesh.positions[i] - out.pivot); });
+        tbb::parallel_for(std::size_t{0}, mesh.positions.size(),
+            [&](std::size_t i) { out.positions[i] = glm::vec3(mesh.positions[i] - out.pivot); });
         if (needs.colors) out.colors = mesh.colors;
-        // Attributes keep the file's own indices, so that a vertex whose faces differ in normal is still one vertex to the rasterizer.
+        // Attributes keep the file's own indices, so that a vertex whose faces differ in normal is still one vertex to
+        // the rasterizer.
         if (fileNormals) {
             out.normals.resize(mesh.normals.size());
-            tbb::parallel_for(std::size_t{0}, mesh.normals.size(), [&](std::size_t i) { out.normals[i] = unitOrZero(mesh.normals[i]); });
+            tbb::parallel_for(std::size_t{0}, mesh.normals.size(),
+                [&](std::size_t i) { out.normals[i] = unitOrZero(mesh.normals[i]); });
         } else if (needs.normals) {
             out.normals = std::move(made);
         }
         if (needs.uvs) {
             out.uvs = mesh.uvs;
-            out.uvs.emplace_back(0);   // for corners without
+            out.uvs.emplace_back(0);  // for corners without
         }
     }
-    const auto normalOf = [&](std::uint32_t corner) { return fileNormals ? static_cast<std::uint32_t>(mesh.cornerNormal[corner]) : corner; };
-    const auto uvOf = [&](std::uint32_t corner) { return mesh.cornerUv.empty() || mesh.cornerUv[corner] == PolyMesh::kNone ? static_cast<std::uint32_t>(mesh.uvs.size()) : static_cast<std::uint32_t>(mesh.cornerUv[corner]); };
-    const bool ownNormals = needs.normals && !needs.unified, ownUvs = needs.uvs && !needs.unified, ownColors = !out.colors.empty() && !needs.unified;
-    const auto vertexOf = [&](std::uint32_t corner) { return cornerVertex.empty() ? mesh.cornerPosition[corner] : cornerVertex[corner]; };
+    const auto normalOf = [&](std::uint32_t corner) {
+        return fileNormals ? static_cast<std::uint32_t>(mesh.cornerNormal[corner]) : corner;
+    };
+    const auto uvOf = [&](std::uint32_t corner) {
+        return mesh.cornerUv.empty() || mesh.cornerUv[corner] == PolyMesh::kNone
+            ? static_cast<std::uint32_t>(mesh.uvs.size())
+            : static_cast<std::uint32_t>(mesh.cornerUv[corner]);
+    };
+    const bool ownNormals = needs.normals && !needs.unified, ownUvs = needs.uvs && !needs.unified,
+               ownColors = !out.colors.empty() && !needs.unified;
+    const auto vertexOf = [&](std::uint32_t corner) {
+        return cornerVertex.empty() ? mesh.cornerPosition[corner] : cornerVertex[corner];
+    };
 
     const std::size_t count = triangles.corner.size() / 3;
     std::vector<char> keep(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
         const auto& a = mesh.positions[mesh.cornerPosition[triangles.corner[3 * t]]];
-        const auto area = glm::cross(mesh.positions[mesh.cornerPosition[triangles.corner[3 * t + 1]]] - a, mesh.positions[mesh.cornerPosition[triangles.corner[3 * t + 2]]] - a);
+        const auto area = glm::cross(mesh.positions[mesh.cornerPosition[triangles.corner[3 * t + 1]]] - a,
+            mesh.positions[mesh.cornerPosition[triangles.corner[3 * t + 2]]] - a);
         keep[t] = area.x != 0 || area.y != 0 || area.z != 0;
     });
     std::size_t kept = 0;

@@ -26,7 +26,8 @@ std::string eglErrorText() {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(
+        text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -40,7 +41,8 @@ struct Candidate {
 
 std::vector<Candidate> listCandidates() {
     std::vector<Candidate> candidates;
-    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") || epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")) {
+    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")
+        || epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base")) {
         EGLint count = 0;
         eglQueryDevicesEXT(0, nullptr, &count);
         std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
@@ -50,7 +52,9 @@ std::vector<Candidate> listCandidates() {
             Candidate candidate;
             // Inside containers names may be missing altogether: a null is no reason to give up.
             const std::string extensions = textOr(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "");
-            const char* drm = extensions.find("EGL_EXT_device_drm") != std::string::npos ? eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT) : nullptr;
+            const char* drm = extensions.find("EGL_EXT_device_drm") != std::string::npos
+                ? eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT)
+                : nullptr;
             candidate.report.index = i;
             candidate.report.isSoftware = extensions.find("EGL_MESA_device_software") != std::string::npos;
             candidate.report.name = candidate.report.isSoftware ? "software" : textOr(drm, "unnamed device");
@@ -71,24 +75,33 @@ std::vector<Candidate> listCandidates() {
 /// Makes a context on the candidate current, or says in its report why not.
 EGLContext tryCandidate(Candidate& candidate, bool debug) {
     auto& report = candidate.report;
-    const auto fail = [&](std::string why) { report.problem = std::move(why); return EGL_NO_CONTEXT; };
+    const auto fail = [&](std::string why) {
+        report.problem = std::move(why);
+        return EGL_NO_CONTEXT;
+    };
     if (candidate.display == EGL_NO_DISPLAY) return fail("no display");
     EGLint major = 0, minor = 0;
     if (!eglInitialize(candidate.display, &major, &minor)) return fail(eglErrorText());
     // The bound API is a property of the thread.
     if (!eglBindAPI(EGL_OPENGL_API)) return fail("no desktop OpenGL");
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_CONTEXT_OPENGL_DEBUG,
+        debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
     const EGLContext context = eglCreateContext(candidate.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (context == EGL_NO_CONTEXT) return fail(eglErrorText());
     if (!eglMakeCurrent(candidate.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         eglDestroyContext(candidate.display, context);
         return fail(eglErrorText());
     }
-    const auto glText = [](GLenum name) { return std::string(textOr(reinterpret_cast<const char*>(glGetString(name)), "")); };
-    report.vendor = glText(GL_VENDOR), report.renderer = glText(GL_RENDERER), report.version = glText(GL_VERSION);
+    const auto glText = [](GLenum name) {
+        return std::string(textOr(reinterpret_cast<const char*>(glGetString(name)), ""));
+    };
+    report.vendor = glText(GL_VENDOR);
+    report.renderer = glText(GL_RENDERER);
+    report.version = glText(GL_VERSION);
     const std::string renderer = lower(report.renderer);
-    report.isSoftware = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos || renderer.find("swrast") != std::string::npos;
+    report.isSoftware = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos
+        || renderer.find("swrast") != std::string::npos;
     report.works = true;
     return context;
 }
@@ -117,7 +130,8 @@ struct Device::State {
         if (context != EGL_NO_CONTEXT) release(candidate, context);
     }
 
-    static void onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text, const void* user) {
+    static void onDebugMessage(
+        GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text, const void* user) {
         if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
         if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;
         static_cast<State*>(const_cast<void*>(user))->messages.emplace_back(text, static_cast<std::size_t>(length));
@@ -128,11 +142,13 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     auto candidates = listCandidates();
     // GPUs first; the order is otherwise EGL's own.
-    std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.report.isSoftware < b.report.isSoftware; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+        [](const auto& a, const auto& b) { return a.report.isSoftware < b.report.isSoftware; });
     std::string reasons;
     std::vector<Candidate> softwareLater;
     const auto take = [&](Candidate& candidate, EGLContext context) {
-        state_->candidate = candidate, state_->context = context;
+        state_->candidate = candidate;
+        state_->context = context;
         report_ = candidate.report;
     };
     const bool acceptsSoftware = !options.requireGpu && options.device != "gpu";
@@ -140,20 +156,31 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
         const EGLContext context = tryCandidate(candidate, options.debug);
         if (context != EGL_NO_CONTEXT && matches(candidate.report, options.device)) {
             // A device that only turned out to be software waits until every other one has been tried.
-            if (!candidate.report.isSoftware || (acceptsSoftware && &candidate == &candidates.back())) { take(candidate, context); break; }
+            if (!candidate.report.isSoftware || (acceptsSoftware && &candidate == &candidates.back())) {
+                take(candidate, context);
+                break;
+            }
             if (acceptsSoftware) softwareLater.push_back(candidate);
         }
         if (context != EGL_NO_CONTEXT) release(candidate, context);
         const auto& r = candidate.report;
-        reasons += fmt::format("\n  device {} ({}): {}", r.index, r.works ? r.renderer : r.name, !r.works ? r.problem : r.isSoftware && !acceptsSoftware ? "software, but a GPU was asked for" : "not the one asked for");
+        reasons += fmt::format("\n  device {} ({}): {}", r.index, r.works ? r.renderer : r.name,
+            !r.works                               ? r.problem
+                : r.isSoftware && !acceptsSoftware ? "software, but a GPU was asked for"
+                                                   : "not the one asked for");
     }
     if (state_->context == EGL_NO_CONTEXT && !softwareLater.empty()) {
         Candidate candidate = softwareLater.front();
-        if (const EGLContext context = tryCandidate(candidate, options.debug); context != EGL_NO_CONTEXT) take(candidate, context);
+        if (const EGLContext context = tryCandidate(candidate, options.debug); context != EGL_NO_CONTEXT)
+            take(candidate, context);
     }
     if (state_->context == EGL_NO_CONTEXT)
-        throw Error(ExitCode::noDevice, {}, fmt::format("no usable OpenGL 4.5 device{}", candidates.empty() ? ": EGL lists none" : ":" + reasons + "\n "),
-                    options.device.empty() && !options.requireGpu ? "install Mesa's drivers (libegl-mesa0, libgl1-mesa-dri) or the GPU vendor's; see limn doctor" : "see limn doctor for the devices of this machine");
+        throw Error(ExitCode::noDevice, {},
+            fmt::format(
+                "no usable OpenGL 4.5 device{}", candidates.empty() ? ": EGL lists none" : ":" + reasons + "\n "),
+            options.device.empty() && !options.requireGpu
+                ? "install Mesa's drivers (libegl-mesa0, libgl1-mesa-dri) or the GPU vendor's; see limn doctor"
+                : "see limn doctor for the devices of this machine");
 
     if (options.debug) {
         glEnable(GL_DEBUG_OUTPUT);
@@ -178,14 +205,17 @@ void Device::check(const std::string& after) const {
     const GLenum code = glGetError();
     if (code == GL_NO_ERROR) return;
     while (glGetError() != GL_NO_ERROR) {}
-    if (code == GL_OUT_OF_MEMORY) throw Error(ExitCode::outOfMemory, {}, fmt::format("the GL device ran out of memory after {}", after), "make the picture smaller or use fewer samples");
+    if (code == GL_OUT_OF_MEMORY)
+        throw Error(ExitCode::outOfMemory, {}, fmt::format("the GL device ran out of memory after {}", after),
+            "make the picture smaller or use fewer samples");
     throw Error(ExitCode::internal, {}, fmt::format("GL code 0x{:x} after {}", code, after), "please report this");
 }
 
 std::vector<DeviceReport> probeDevices() {
     std::vector<DeviceReport> reports;
     for (auto& candidate : listCandidates()) {
-        if (const EGLContext context = tryCandidate(candidate, false); context != EGL_NO_CONTEXT) release(candidate, context);
+        if (const EGLContext context = tryCandidate(candidate, false); context != EGL_NO_CONTEXT)
+            release(candidate, context);
         reports.push_back(candidate.report);
     }
     return reports;

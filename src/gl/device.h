@@ -10,25 +10,25 @@ namespace limn::gl {
 /// One EGL device, tried.
 struct DeviceReport {
     int index = 0;
-    std::string name;       ///< what EGL says of it before anything is tried: extension or DRM file
+    std::string name;  ///< what EGL says of it before anything is tried: extension or DRM file
     std::string vendor, renderer, version;
     bool isSoftware = false;
     bool works = false;
-    std::string problem;    ///< why it does not work
+    std::string problem;  ///< why it does not work
 };
 
 struct DeviceOptions {
-    std::string device;      ///< empty: best; "software", "gpu", an index, or part of a renderer's name
+    std::string device;  ///< empty: best; "software", "gpu", an index, or part of a renderer's name
     bool requireGpu = false;
-    bool debug = false;      ///< KHR_debug messages are collected
-    int threads = 0;         ///< of a software renderer; 0 = its own choice
+    bool debug = false;  ///< KHR_debug messages are collected
+    int threads = 0;     ///< of a software renderer; 0 = its own choice
 };
 
 struct Limits {
     int maxTextureSize = 0;
     int maxViewport = 0;
-    int maxBufferTexels = 0;     ///< elements of one buffer texture
-    int maxUniformBlock = 0;     ///< bytes
+    int maxBufferTexels = 0;  ///< elements of one buffer texture
+    int maxUniformBlock = 0;  ///< bytes
 };
 
 /// The context, current on the thread that made it until it is destroyed. One at a time.

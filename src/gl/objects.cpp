@@ -25,9 +25,14 @@ GLenum internalFormat(Format format) {
     return GL_NONE;
 }
 
-void label(GLenum kind, GLuint id, const std::string& text) { glObjectLabel(kind, id, static_cast<GLsizei>(text.size()), text.c_str()); }
+void label(GLenum kind, GLuint id, const std::string& text) {
+    glObjectLabel(kind, id, static_cast<GLsizei>(text.size()), text.c_str());
+}
 
-[[noreturn]] void outOfMemory(const std::string& what) { throw Error(ExitCode::outOfMemory, {}, fmt::format("the GL device has no memory for {}", what), "make the picture smaller or use fewer samples"); }
+[[noreturn]] void outOfMemory(const std::string& what) {
+    throw Error(ExitCode::outOfMemory, {}, fmt::format("the GL device has no memory for {}", what),
+        "make the picture smaller or use fewer samples");
+}
 
 }  // namespace
 
@@ -44,15 +49,20 @@ static Id makeBuffer(std::size_t size, const void* data, const std::string& name
     label(GL_BUFFER, id, name);
     // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing, GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT : GLbitfield{0}));
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing,
+        GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT : GLbitfield{0}));
     return id;
 }
 
-Buffer::Buffer(std::span<const std::byte> data, const std::string& name, bool mappable) : handle_(makeBuffer(data.size(), data.data(), name, mappable)), size_(data.size()) {
+Buffer::Buffer(std::span<const std::byte> data, const std::string& name, bool mappable)
+    : handle_(makeBuffer(data.size(), data.data(), name, mappable)), size_(data.size()) {
     if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
 }
 
-Mapping::Mapping(const Buffer& buffer) : buffer_(buffer.id()), bytes_(static_cast<const std::byte*>(glMapNamedBufferRange(buffer_, 0, static_cast<GLsizeiptr>(buffer.size()), GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT))) {
+Mapping::Mapping(const Buffer& buffer)
+    : buffer_(buffer.id()),
+      bytes_(static_cast<const std::byte*>(glMapNamedBufferRange(
+          buffer_, 0, static_cast<GLsizeiptr>(buffer.size()), GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT))) {
     if (!bytes_) throw Error(ExitCode::internal, {}, "GL gives no access to a buffer's memory", "please report this");
 }
 Mapping::~Mapping() { glUnmapNamedBuffer(buffer_); }
@@ -108,16 +118,21 @@ void Texture::writeLayer(int layer, glm::ivec2 origin, glm::ivec2 size, const st
 void Texture::bindSampler(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), id()); }
 void Texture::bindImage(int unit, Access access) const {
     constexpr GLenum kinds[] = {GL_READ_ONLY, GL_WRITE_ONLY, GL_READ_WRITE};
-    glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, kinds[static_cast<std::size_t>(access)], internalFormat(format_));
+    glBindImageTexture(static_cast<GLuint>(unit), id(), 0, GL_FALSE, 0, kinds[static_cast<std::size_t>(access)],
+        internalFormat(format_));
 }
 
-static std::size_t countOf(glm::ivec2 size, int channels) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(channels); }
+static std::size_t countOf(glm::ivec2 size, int channels) {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(channels);
+}
 
 std::vector<float> Texture::read(int channels, glm::ivec2 origin, glm::ivec2 size) const {
     std::vector<float> pixels(countOf(size, channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA};
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1, format_ == Format::depth32f ? GL_DEPTH_COMPONENT : formats[channels], GL_FLOAT, static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
+    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1,
+        format_ == Format::depth32f ? GL_DEPTH_COMPONENT : formats[channels], GL_FLOAT,
+        static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
     return pixels;
 }
 
@@ -128,17 +143,20 @@ void Texture::write(std::span<const float> values) const {
 }
 
 void Texture::clear() const {
-    constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA}, integers[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+    constexpr GLenum formats[] = {GL_NONE, GL_RED, GL_RG, GL_RGB, GL_RGBA},
+                     integers[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
     const bool isInteger = info(format_).glslPrefix == "u";
     const auto channels = static_cast<std::size_t>(info(format_).channels);
-    glClearTexImage(id(), 0, (isInteger ? integers : formats)[channels], isInteger ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
+    glClearTexImage(
+        id(), 0, (isInteger ? integers : formats)[channels], isInteger ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
 }
 
 std::vector<std::uint32_t> Texture::readIntegers(int channels, glm::ivec2 origin, glm::ivec2 size) const {
     std::vector<std::uint32_t> pixels(countOf(size, channels));
     constexpr GLenum formats[] = {GL_NONE, GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1, formats[channels], GL_UNSIGNED_INT, static_cast<GLsizei>(pixels.size() * sizeof(std::uint32_t)), pixels.data());
+    glGetTextureSubImage(id(), 0, origin.x, origin.y, 0, size.x, size.y, 1, formats[channels], GL_UNSIGNED_INT,
+        static_cast<GLsizei>(pixels.size() * sizeof(std::uint32_t)), pixels.data());
     return pixels;
 }
 
@@ -155,12 +173,17 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture*
     glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(attachments.size()), attachments.data());
     if (depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth->id(), 0);
     if (const GLenum status = glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(ExitCode::internal, {}, fmt::format("framebuffer '{}' is incomplete (0x{:x})", name, status), "please report this");
+        throw Error(ExitCode::internal, {}, fmt::format("framebuffer '{}' is incomplete (0x{:x})", name, status),
+            "please report this");
 }
 
 void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, handle_.get()); }
-void Framebuffer::clearFloat(int attachment, glm::vec4 value) const { glClearNamedFramebufferfv(handle_.get(), GL_COLOR, attachment, &value.x); }
-void Framebuffer::clearInteger(int attachment, glm::uvec4 value) const { glClearNamedFramebufferuiv(handle_.get(), GL_COLOR, attachment, &value.x); }
+void Framebuffer::clearFloat(int attachment, glm::vec4 value) const {
+    glClearNamedFramebufferfv(handle_.get(), GL_COLOR, attachment, &value.x);
+}
+void Framebuffer::clearInteger(int attachment, glm::uvec4 value) const {
+    glClearNamedFramebufferuiv(handle_.get(), GL_COLOR, attachment, &value.x);
+}
 void Framebuffer::clearDepth(float value) const { glClearNamedFramebufferfv(handle_.get(), GL_DEPTH, 0, &value); }
 
 VertexArray VertexArray::empty() {
@@ -188,7 +211,8 @@ VertexArray::VertexArray(std::span<const VertexInput> inputs, const Buffer& indi
             glVertexArrayBindingDivisor(id, binding, 1);
         } else {
             glVertexArrayAttribFormat(id, location, input.components, GL_FLOAT, GL_FALSE, 0);
-            glVertexArrayVertexBuffer(id, binding, input.buffer->id(), 0, static_cast<GLsizei>(sizeof(float)) * input.components);
+            glVertexArrayVertexBuffer(
+                id, binding, input.buffer->id(), 0, static_cast<GLsizei>(sizeof(float)) * input.components);
         }
         ++binding;
     }
@@ -209,7 +233,9 @@ Program::Program(std::span<const ShaderStage> stages, const std::string& name) {
         return text;
     };
     for (const auto& stage : stages) {
-        const GLenum kind = stage.kind == ShaderStage::Kind::vertex ? GL_VERTEX_SHADER : stage.kind == ShaderStage::Kind::fragment ? GL_FRAGMENT_SHADER : GL_COMPUTE_SHADER;
+        const GLenum kind = stage.kind == ShaderStage::Kind::vertex ? GL_VERTEX_SHADER
+            : stage.kind == ShaderStage::Kind::fragment             ? GL_FRAGMENT_SHADER
+                                                                    : GL_COMPUTE_SHADER;
         const GLuint shader = glCreateShader(kind);
         const char* text = stage.source.c_str();
         glShaderSource(shader, 1, &text, nullptr);
@@ -219,16 +245,23 @@ Program::Program(std::span<const ShaderStage> stages, const std::string& name) {
         const std::string log = ok ? "" : infoLog(shader, glGetShaderiv, glGetShaderInfoLog);
         glAttachShader(id, shader);
         glDeleteShader(shader);
-        if (!ok) throw Error(ExitCode::internal, {}, fmt::format("shader '{}' does not compile:\n{}", name, log), "please report this, with the output of limn doctor");
+        if (!ok)
+            throw Error(ExitCode::internal, {}, fmt::format("shader '{}' does not compile:\n{}", name, log),
+                "please report this, with the output of limn doctor");
     }
     glLinkProgram(id);
     GLint ok = 0;
     glGetProgramiv(id, GL_LINK_STATUS, &ok);
-    if (!ok) throw Error(ExitCode::internal, {}, fmt::format("shader '{}' does not link:\n{}", name, infoLog(id, glGetProgramiv, glGetProgramInfoLog)), "please report this, with the output of limn doctor");
+    if (!ok)
+        throw Error(ExitCode::internal, {},
+            fmt::format("shader '{}' does not link:\n{}", name, infoLog(id, glGetProgramiv, glGetProgramInfoLog)),
+            "please report this, with the output of limn doctor");
 }
 
 void Program::use() const { glUseProgram(handle_.get()); }
-void Program::setInt(const char* uniform, int value) const { glProgramUniform1i(handle_.get(), glGetUniformLocation(handle_.get(), uniform), value); }
+void Program::setInt(const char* uniform, int value) const {
+    glProgramUniform1i(handle_.get(), glGetUniformLocation(handle_.get(), uniform), value);
+}
 
 Timestamp::Timestamp() {
     GLuint id = 0;
@@ -242,7 +275,9 @@ double Timestamp::milliseconds() const {
     return static_cast<double>(nanoseconds) * 1e-6;
 }
 
-DebugGroup::DebugGroup(const std::string& name) { glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.c_str()); }
+DebugGroup::DebugGroup(const std::string& name) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.c_str());
+}
 DebugGroup::~DebugGroup() { glPopDebugGroup(); }
 
 void dispatch(glm::ivec2 size, glm::ivec2 group) {
@@ -269,8 +304,12 @@ Scissor::~Scissor() { glDisable(GL_SCISSOR_TEST); }
 void setViewport(glm::ivec2 origin, glm::ivec2 size) { glViewport(origin.x, origin.y, size.x, size.y); }
 void setAdding(int colour, bool adds) {
     const auto number = static_cast<GLuint>(colour);
-    if (adds) glEnablei(GL_BLEND, number), glBlendEquationi(number, GL_FUNC_ADD), glBlendFunci(number, GL_ONE, GL_ONE);
-    else glDisablei(GL_BLEND, number);
+    if (adds) {
+        glEnablei(GL_BLEND, number);
+        glBlendEquationi(number, GL_FUNC_ADD);
+        glBlendFunci(number, GL_ONE, GL_ONE);
+    } else
+        glDisablei(GL_BLEND, number);
 }
 
 void setDepthTest(DepthTest test) {

@@ -24,8 +24,13 @@ public:
     Handle() = default;
     explicit Handle(Id id) : id_(id) {}
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-    Handle& operator=(Handle&& other) noexcept { std::swap(id_, other.id_); return *this; }
-    ~Handle() { if (id_) Release(id_); }
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    ~Handle() {
+        if (id_) Release(id_);
+    }
     Id get() const { return id_; }
     explicit operator bool() const { return id_ != 0; }
 
@@ -48,7 +53,7 @@ public:
     Buffer() = default;
     /// `mappable`: Mapping works on it; GPUs may keep such a buffer where they are slower to read it.
     Buffer(std::span<const std::byte> data, const std::string& label, bool mappable = false);
-    void write(std::span<const std::byte> data);   ///< same size as made with
+    void write(std::span<const std::byte> data);  ///< same size as made with
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
     Id id() const { return handle_.get(); }
@@ -59,7 +64,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// The bytes of a mappable buffer, to read, while this lives; drawing may read them at the same time. Throws Error (internal) where that cannot be.
+/// The bytes of a mappable buffer, to read, while this lives; drawing may read them at the same time. Throws Error
+/// (internal) where that cannot be.
 class Mapping {
 public:
     explicit Mapping(const Buffer& buffer);
@@ -105,7 +111,7 @@ public:
 
     /// The other way round, of the whole image.
     void write(std::span<const float> values) const;
-    void clear() const;                                  ///< to 0
+    void clear() const;  ///< to 0
 
     Format format() const { return format_; }
     glm::ivec2 size() const { return size_; }
@@ -135,13 +141,14 @@ private:
 struct VertexInput {
     const Buffer* buffer;
     int location;
-    int components;      ///< floats; 0 = one unsigned integer per instance
+    int components;  ///< floats; 0 = one unsigned integer per instance
 };
 
 class VertexArray {
 public:
     VertexArray() = default;
-    VertexArray(std::span<const VertexInput> inputs, const Buffer& indices, const std::string& label);   ///< `indices` may be empty
+    VertexArray(std::span<const VertexInput> inputs, const Buffer& indices,
+        const std::string& label);  ///< `indices` may be empty
     /// For drawings that make their vertices up.
     static VertexArray empty();
     void bind() const;
@@ -174,7 +181,7 @@ private:
 class Timestamp {
 public:
     Timestamp();
-    double milliseconds() const;   ///< waits for the result
+    double milliseconds() const;  ///< waits for the result
 
 private:
     Handle<releaseQuery> handle_;
@@ -216,7 +223,7 @@ void setDepthTest(DepthTest test);
 /// Is what is drawn into a framebuffer's colour image added to what stands there, or does it replace it?
 void setAdding(int colour, bool adds);
 void barrier();
-void flush();     ///< lets the device begin with what it has been given
+void flush();  ///< lets the device begin with what it has been given
 void finish();
 
 }  // namespace limn::gl

@@ -22,7 +22,8 @@ std::string jsonList(const std::vector<std::string>& words) {
 
 class Explainer {
 public:
-    Explainer(const Graph& graph, const Plan& plan, const PlanFacts& facts, std::span<const double> milliseconds) : graph_(graph), plan_(plan), facts_(facts), ms_(milliseconds) {}
+    Explainer(const Graph& graph, const Plan& plan, const PlanFacts& facts, std::span<const double> milliseconds)
+        : graph_(graph), plan_(plan), facts_(facts), ms_(milliseconds) {}
 
     std::string text() const {
         std::string out;
@@ -32,19 +33,27 @@ public:
         for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
             const Pass& p = pass(plan_.passes[i]);
             std::string time;
-            if (!ms_.empty()) time = fmt::format("{:9.2f} ms", ms_[i]), total += ms_[i];
+            if (!ms_.empty()) {
+                time = fmt::format("{:9.2f} ms", ms_[i]);
+                total += ms_[i];
+            }
             out += fmt::format("{:>3}  {:<24} {:<11} {:<16}{}\n", i + 1, p.name, p.slot, p.technique, time);
-            out += fmt::format("       {} → {}{}\n", p.reads.empty() ? "the scene" : joined(reads(p), ", "), joined(writes(plan_.passes[i], true), ", "), "   (" + joined(remarks(p), ", ") + ")");
+            out += fmt::format("       {} → {}{}\n", p.reads.empty() ? "the scene" : joined(reads(p), ", "),
+                joined(writes(plan_.passes[i], true), ", "), "   (" + joined(remarks(p), ", ") + ")");
             out += fmt::format("       because {}\n", plan_.passes[i].reason);
-            if (const auto dropped = writes(plan_.passes[i], false); !dropped.empty()) out += fmt::format("       not made, since nothing reads it: {}\n", joined(dropped, ", "));
+            if (const auto dropped = writes(plan_.passes[i], false); !dropped.empty())
+                out += fmt::format("       not made, since nothing reads it: {}\n", joined(dropped, ", "));
         }
         if (!ms_.empty()) out += fmt::format("     {:<52}{:9.2f} ms\n", "together", total);
         out += fmt::format("\nculled\n");
-        for (const auto& culled : plan_.culled) out += fmt::format("     {:<24} {}\n", graph_.passes[index(culled.pass)].name, culled.reason);
+        for (const auto& culled : plan_.culled)
+            out += fmt::format("     {:<24} {}\n", graph_.passes[index(culled.pass)].name, culled.reason);
         if (plan_.culled.empty()) out += "     none\n";
         if (!graph_.absent.empty()) out += fmt::format("not asked for: {}\n", joined(graph_.absent, ", "));
         out += fmt::format("\ntextures: {} in {}\n", bytesText(plan_.textureBytes()), plan_.textures.size());
-        for (const auto& texture : plan_.textures) out += fmt::format("     {:<8} {:>5}×{:<5} {:>10}  {}\n", info(texture.format).name, texture.size.x, texture.size.y, bytesText(texture.bytes()), joined(resources(texture), ", then "));
+        for (const auto& texture : plan_.textures)
+            out += fmt::format("     {:<8} {:>5}×{:<5} {:>10}  {}\n", info(texture.format).name, texture.size.x,
+                texture.size.y, bytesText(texture.bytes()), joined(resources(texture), ", then "));
         return out + fmt::format("scene data: {}\n", joined(sceneData(), ", "));
     }
 
@@ -54,13 +63,22 @@ public:
         for (const auto& [name, value] : facts_) items.push_back(jsonText(name) + ": " + jsonText(value));
         out += joined(items, ", ") + "},\n  \"passes\": [\n";
         items.clear();
-        for (std::size_t i = 0; i < plan_.passes.size(); ++i) items.push_back(jsonPass(pass(plan_.passes[i]), false, plan_.passes[i].reason, writes(plan_.passes[i], true), writes(plan_.passes[i], false), i));
-        for (const auto& culled : plan_.culled) items.push_back(jsonPass(graph_.passes[index(culled.pass)], true, culled.reason, allWrites(graph_.passes[index(culled.pass)]), {}, 0));
+        for (std::size_t i = 0; i < plan_.passes.size(); ++i)
+            items.push_back(jsonPass(pass(plan_.passes[i]), false, plan_.passes[i].reason,
+                writes(plan_.passes[i], true), writes(plan_.passes[i], false), i));
+        for (const auto& culled : plan_.culled)
+            items.push_back(jsonPass(graph_.passes[index(culled.pass)], true, culled.reason,
+                allWrites(graph_.passes[index(culled.pass)]), {}, 0));
         out += joined(items, ",\n") + "\n  ],\n  \"textures\": [\n";
         items.clear();
         for (const auto& texture : plan_.textures)
-            items.push_back(fmt::format("    {{\"format\": {}, \"width\": {}, \"height\": {}, \"bytes\": {}, \"holds\": {}}}", jsonText(info(texture.format).name), texture.size.x, texture.size.y, texture.bytes(), jsonList(resources(texture))));
-        return out + joined(items, ",\n") + fmt::format("\n  ],\n  \"texture_bytes\": {},\n  \"scene_data\": {},\n  \"not_asked_for\": {}\n}}\n", plan_.textureBytes(), jsonList(sceneData()), jsonList(graph_.absent));
+            items.push_back(
+                fmt::format("    {{\"format\": {}, \"width\": {}, \"height\": {}, \"bytes\": {}, \"holds\": {}}}",
+                    jsonText(info(texture.format).name), texture.size.x, texture.size.y, texture.bytes(),
+                    jsonList(resources(texture))));
+        return out + joined(items, ",\n")
+            + fmt::format("\n  ],\n  \"texture_bytes\": {},\n  \"scene_data\": {},\n  \"not_asked_for\": {}\n}}\n",
+                plan_.textureBytes(), jsonList(sceneData()), jsonList(graph_.absent));
     }
 
     std::string dot() const {
@@ -68,13 +86,18 @@ public:
         for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
             const Pass& p = pass(plan_.passes[i]);
             const std::string time = ms_.empty() ? "" : fmt::format("\\n{:.2f} ms", ms_[i]);
-            out += fmt::format("  {} [label = \"{}\\n{} {}{}\"];\n", jsonText(p.name), p.name, p.slot, p.technique, time);
+            out +=
+                fmt::format("  {} [label = \"{}\\n{} {}{}\"];\n", jsonText(p.name), p.name, p.slot, p.technique, time);
             for (const auto& read : p.reads)
                 for (const auto& planned : plan_.passes)
                     for (const auto& write : pass(planned).writes)
-                        if (write.resource == read.resource) out += fmt::format("  {} -> {} [label = {}];\n", jsonText(pass(planned).name), jsonText(p.name), jsonText(name(read.resource)));
+                        if (write.resource == read.resource)
+                            out += fmt::format("  {} -> {} [label = {}];\n", jsonText(pass(planned).name),
+                                jsonText(p.name), jsonText(name(read.resource)));
         }
-        for (const auto& culled : plan_.culled) out += fmt::format("  {} [style = dashed, color = grey, fontcolor = grey, tooltip = {}];\n", jsonText(graph_.passes[index(culled.pass)].name), jsonText(culled.reason));
+        for (const auto& culled : plan_.culled)
+            out += fmt::format("  {} [style = dashed, color = grey, fontcolor = grey, tooltip = {}];\n",
+                jsonText(graph_.passes[index(culled.pass)].name), jsonText(culled.reason));
         return out + "}\n";
     }
 
@@ -105,8 +128,10 @@ private:
         return names;
     }
     std::vector<std::string> sceneData() const {
-        constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"}, {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
-                                                             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"}, {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"}};
+        constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"},
+            {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
+            {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"},
+            {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)
             if (has(plan_.sceneData, flag)) names.emplace_back(text);
@@ -128,10 +153,14 @@ private:
         if (!p.note.empty()) all.push_back(p.note);
         return all;
     }
-    std::string jsonPass(const Pass& p, bool culled, const std::string& reason, const std::vector<std::string>& written, const std::vector<std::string>& dropped, std::size_t i) const {
-        return fmt::format("    {{\"name\": {}, \"slot\": {}, \"technique\": {}, \"culled\": {}, \"reason\": {}, \"reads\": {}, \"writes\": {}, \"not_made\": {}, \"runs\": {}, \"note\": {}{}}}", jsonText(p.name), jsonText(p.slot),
-                           jsonText(p.technique), culled, jsonText(reason), jsonList(reads(p)), jsonList(written), jsonList(dropped), jsonText(std::string(rate(p))), jsonText(p.note),
-                           culled || ms_.empty() ? "" : fmt::format(", \"milliseconds\": {:.3f}", ms_[i]));
+    std::string jsonPass(const Pass& p, bool culled, const std::string& reason, const std::vector<std::string>& written,
+        const std::vector<std::string>& dropped, std::size_t i) const {
+        return fmt::format(
+            "    {{\"name\": {}, \"slot\": {}, \"technique\": {}, \"culled\": {}, \"reason\": {}, \"reads\": {}, "
+            "\"writes\": {}, \"not_made\": {}, \"runs\": {}, \"note\": {}{}}}",
+            jsonText(p.name), jsonText(p.slot), jsonText(p.technique), culled, jsonText(reason), jsonList(reads(p)),
+            jsonList(written), jsonList(dropped), jsonText(std::string(rate(p))), jsonText(p.note),
+            culled || ms_.empty() ? "" : fmt::format(", \"milliseconds\": {:.3f}", ms_[i]));
     }
 
     const Graph& graph_;
@@ -142,7 +171,8 @@ private:
 
 }  // namespace
 
-std::string explain(const Graph& graph, const Plan& plan, PlanFormat format, const PlanFacts& facts, std::span<const double> milliseconds) {
+std::string explain(const Graph& graph, const Plan& plan, PlanFormat format, const PlanFacts& facts,
+    std::span<const double> milliseconds) {
     const Explainer explainer(graph, plan, facts, milliseconds);
     switch (format) {
         case PlanFormat::text: return explainer.text();

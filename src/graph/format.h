@@ -8,10 +8,10 @@ namespace limn {
 enum class Format { r8, rgba8, r16f, r32f, rg32f, rgba16f, rgba32f, r32ui, rg32ui, depth32f, srgb8Array };
 
 struct FormatInfo {
-    std::string_view name;         ///< as plans print it
-    int bytes;                     ///< per pixel
-    std::string_view glslImage;    ///< layout qualifier; empty = cannot be an image
-    std::string_view glslPrefix;   ///< "" or "u": of sampler and image types
+    std::string_view name;        ///< as plans print it
+    int bytes;                    ///< per pixel
+    std::string_view glslImage;   ///< layout qualifier; empty = cannot be an image
+    std::string_view glslPrefix;  ///< "" or "u": of sampler and image types
     int channels;
 };
 

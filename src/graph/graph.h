@@ -1,7 +1,7 @@
 // What could be drawn (Graph) and what will be (Plan). Pure data and pure functions: no GL here.
 //
-// A pass declares what it reads and writes; it runs if, and only if, something that was asked for needs what it writes. The same holds
-// for each single thing it writes: a texture that nobody reads is neither made nor attached.
+// A pass declares what it reads and writes; it runs if, and only if, something that was asked for needs what it writes.
+// The same holds for each single thing it writes: a texture that nobody reads is neither made nor attached.
 #pragma once
 
 #include "base/uniform_block.h"
@@ -28,33 +28,48 @@ struct Resource {
     std::string name;
     Format format = Format::r32f;
     glm::ivec2 size{0};
-    bool persistent = false;    ///< keeps its content from one run to the next
+    bool persistent = false;  ///< keeps its content from one run to the next
 };
 
 /// Data of the scene that shaders read.
-enum class SceneData : unsigned { none = 0, positions = 1, normals = 2, uvs = 4, materials = 8, lights = 16, textures = 32, unifiedVertices = 64, rays = 128, colors = 256 };
-constexpr SceneData operator|(SceneData a, SceneData b) { return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b)); }
-constexpr bool has(SceneData set, SceneData one) { return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0; }
+enum class SceneData : unsigned {
+    none = 0,
+    positions = 1,
+    normals = 2,
+    uvs = 4,
+    materials = 8,
+    lights = 16,
+    textures = 32,
+    unifiedVertices = 64,
+    rays = 128,
+    colors = 256
+};
+constexpr SceneData operator|(SceneData a, SceneData b) {
+    return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(SceneData set, SceneData one) {
+    return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
 
 struct Read {
-    std::string name;           ///< of the sampler in the shader
+    std::string name;  ///< of the sampler in the shader
     ResourceId resource;
-    int halo = 0;               ///< how many pixels around its own the pass wants to read
-    bool whole = false;         ///< it may read farther, as far as there is anything: all of the image must be made
+    int halo = 0;        ///< how many pixels around its own the pass wants to read
+    bool whole = false;  ///< it may read farther, as far as there is anything: all of the image must be made
 };
 
 struct Write {
-    std::string name;           ///< of the image or output in the shader
+    std::string name;  ///< of the image or output in the shader
     ResourceId resource;
-    SceneData needs = SceneData::none;   ///< scene data read only to write this
-    glm::vec4 clear{0};         ///< raster passes: what stands where nothing is drawn
-    bool mean = false;          ///< compute passes: the image is the mean of what all samples of a frame write
+    SceneData needs = SceneData::none;  ///< scene data read only to write this
+    glm::vec4 clear{0};                 ///< raster passes: what stands where nothing is drawn
+    bool mean = false;                  ///< compute passes: the image is the mean of what all samples of a frame write
 };
 
 /// One drawing of the scene into a part of a raster pass's images.
 struct Drawing {
-    glm::ivec4 viewport{0};     ///< origin and size
-    int number = 0;             ///< what the shader's uniform `drawing` says
+    glm::ivec4 viewport{0};  ///< origin and size
+    int number = 0;          ///< what the shader's uniform `drawing` says
 };
 
 class RayScene;
@@ -67,49 +82,51 @@ struct HostImage {
 };
 
 struct PixelRect {
-    glm::ivec2 origin{0};           ///< from the lower left
+    glm::ivec2 origin{0};  ///< from the lower left
     glm::ivec2 size{0};
 };
 
 /// What a host pass works on. Images of `writes` that nobody reads are empty.
 struct HostWork {
-    const RayScene* rays = nullptr;     ///< where the pass needs SceneData::rays
+    const RayScene* rays = nullptr;  ///< where the pass needs SceneData::rays
     std::vector<HostImage> reads, writes;
-    PixelRect part;                     ///< of the images: only this is asked for
+    PixelRect part;  ///< of the images: only this is asked for
 };
 
 /// Side of the squares of pixels by which passes are masked: what software renderers draw at once.
 inline constexpr int kMaskTile = 4;
 
 struct Pass {
-    /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending them on.
+    /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending
+    /// them on.
     enum class Kind { compute, raster, host };
-    /// How often it runs: for every sample; for those in which ambient occlusion, or lines, are found; for the first of each sub-frame or frame. What a
-    /// pass makes is kept until it runs again, where something reads it that runs in between.
+    /// How often it runs: for every sample; for those in which ambient occlusion, or lines, are found; for the first of
+    /// each sub-frame or frame. What a pass makes is kept until it runs again, where something reads it that runs in
+    /// between.
     enum class Rate { sample, occlusion, line, subFrame, frame };
 
     std::string name;
     std::string slot, technique;
     Kind kind = Kind::compute;
     Rate rate = Rate::sample;
-    std::string shader;         ///< path below shaders/ without extension
+    std::string shader;  ///< path below shaders/ without extension
     std::vector<std::pair<std::string, std::string>> defines;
     std::vector<Read> reads;
     std::vector<Write> writes;  ///< a D32F write of a raster pass is its depth buffer
     UniformBlock params;
     SceneData needs = SceneData::none;
-    std::function<void(HostWork&)> work; ///< host passes
-    std::vector<Drawing> drawings;       ///< raster passes; empty: the scene once, as the picture's camera sees it
-    /// Compute passes may be run only where a mask says: index into reads of an R8 image, one texel per kMaskTile × kMaskTile pixels. Where it is 0
-    /// the pass's images are 0. -1: everywhere.
+    std::function<void(HostWork&)> work;  ///< host passes
+    std::vector<Drawing> drawings;        ///< raster passes; empty: the scene once, as the picture's camera sees it
+    /// Compute passes may be run only where a mask says: index into reads of an R8 image, one texel per kMaskTile ×
+    /// kMaskTile pixels. Where it is 0 the pass's images are 0. -1: everywhere.
     int mask = -1;
-    std::string note;           ///< for people: "8 taps per pixel"
+    std::string note;  ///< for people: "8 taps per pixel"
 };
 
 struct Graph {
     std::vector<Resource> resources;
     std::vector<Pass> passes;
-    std::vector<std::string> absent;   ///< slots that were not asked for, for the explanation
+    std::vector<std::string> absent;  ///< slots that were not asked for, for the explanation
 
     ResourceId add(Resource resource) {
         resources.push_back(std::move(resource));
@@ -121,16 +138,16 @@ struct Graph {
 struct Wanted {
     std::string name;
     ResourceId resource;
-    int halo = 0;                 ///< pixels around the picture that are wanted too
+    int halo = 0;  ///< pixels around the picture that are wanted too
 };
 
 struct PlannedPass {
-    int pass = 0;                 ///< index into Graph::passes
-    std::vector<bool> writes;     ///< of each Pass::writes: is it made?
-    std::string reason;           ///< who asked for it
-    int halo = 0;                 ///< pixels around the picture that it must make for later passes to be right up to the border
-    bool whole = false;           ///< everything that is drawn around the picture, since a later pass looks as far as it can
-    bool runs = true;             ///< in the run that the plan is for; see narrow()
+    int pass = 0;              ///< index into Graph::passes
+    std::vector<bool> writes;  ///< of each Pass::writes: is it made?
+    std::string reason;        ///< who asked for it
+    int halo = 0;        ///< pixels around the picture that it must make for later passes to be right up to the border
+    bool whole = false;  ///< everything that is drawn around the picture, since a later pass looks as far as it can
+    bool runs = true;    ///< in the run that the plan is for; see narrow()
 };
 
 struct CulledPass {
@@ -143,36 +160,43 @@ struct PhysicalTexture {
     Format format;
     glm::ivec2 size;
     bool persistent = false;
-    std::vector<int> resources;   ///< in the order of their lives
-    std::uint64_t bytes() const { return static_cast<std::uint64_t>(info(format).bytes) * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y); }
+    std::vector<int> resources;  ///< in the order of their lives
+    std::uint64_t bytes() const {
+        return static_cast<std::uint64_t>(info(format).bytes) * static_cast<std::uint64_t>(size.x)
+            * static_cast<std::uint64_t>(size.y);
+    }
 };
 
 struct Plan {
-    std::vector<PlannedPass> passes;      ///< in order of execution
+    std::vector<PlannedPass> passes;  ///< in order of execution
     std::vector<CulledPass> culled;
     std::vector<PhysicalTexture> textures;
-    std::vector<int> textureOf;           ///< resource index → index into textures, or −1 when it is not made
+    std::vector<int> textureOf;  ///< resource index → index into textures, or −1 when it is not made
     SceneData sceneData = SceneData::none;
 
     /// The widest halo of all passes: how much wider than the picture the scene must be drawn.
     int halo() const;
     std::uint64_t textureBytes() const;
-    bool makes(ResourceId resource) const { return resource.index >= 0 && textureOf[static_cast<std::size_t>(resource.index)] >= 0; }
+    bool makes(ResourceId resource) const {
+        return resource.index >= 0 && textureOf[static_cast<std::size_t>(resource.index)] >= 0;
+    }
 };
 
-/// Culls, orders, and lays resources out in as few textures as their lifetimes allow. Throws Errors (internal) naming *every* resource
-/// that is read but not written, written twice, or part of a cycle.
+/// Culls, orders, and lays resources out in as few textures as their lifetimes allow. Throws Errors (internal) naming
+/// *every* resource that is read but not written, written twice, or part of a cycle.
 Plan compile(const Graph& graph, std::span<const Wanted> wanted);
 
-/// The plan of one run, in which only some passes are due: what is made for every sample is made only as far as these, and `wanted`, need it.
-/// Passes and textures keep their places.
-Plan narrow(const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue);
+/// The plan of one run, in which only some passes are due: what is made for every sample is made only as far as these,
+/// and `wanted`, need it. Passes and textures keep their places.
+Plan narrow(
+    const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue);
 
 /// Facts about a picture that the explanation shows above the passes: name and value.
 using PlanFacts = std::vector<std::pair<std::string, std::string>>;
 enum class PlanFormat { text, json, dot };
 
 /// `milliseconds`: of each planned pass, empty when not measured.
-std::string explain(const Graph& graph, const Plan& plan, PlanFormat format, const PlanFacts& facts, std::span<const double> milliseconds = {});
+std::string explain(const Graph& graph, const Plan& plan, PlanFormat format, const PlanFacts& facts,
+    std::span<const double> milliseconds = {});
 
 }  // namespace limn

@@ -7,29 +7,45 @@
 namespace limn {
 namespace {
 
-/// Goes from what is wanted back to what that reads: a pass must make as much around the picture as its readers make, and what they read around that.
-/// What runs for every sample makes no more than passes that run in this one read; what runs less often keeps what it makes.
+/// Goes from what is wanted back to what that reads: a pass must make as much around the picture as its readers make,
+/// and what they read around that. What runs for every sample makes no more than passes that run in this one read; what
+/// runs less often keeps what it makes.
 void spreadDemand(const Graph& graph, Plan& plan, std::span<const Wanted> wanted) {
-    struct Demand { bool isRead = false, whole = false; int halo = 0; };
+    struct Demand {
+        bool isRead = false, whole = false;
+        int halo = 0;
+    };
     std::vector<Demand> demand(graph.resources.size());
     const auto of = [&](ResourceId id) -> Demand& { return demand[static_cast<std::size_t>(id.index)]; };
-    for (const auto& want : wanted) of(want.resource).isRead = true, of(want.resource).halo = std::max(of(want.resource).halo, want.halo);
+    for (const auto& want : wanted) {
+        of(want.resource).isRead = true;
+        of(want.resource).halo = std::max(of(want.resource).halo, want.halo);
+    }
     for (auto planned = plan.passes.rbegin(); planned != plan.passes.rend(); ++planned) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned->pass)];
         const bool isPerSample = pass.rate == Pass::Rate::sample;
-        if (isPerSample) planned->halo = 0, planned->whole = false, planned->runs = false;
+        if (isPerSample) {
+            planned->halo = 0;
+            planned->whole = false;
+            planned->runs = false;
+        }
         for (std::size_t w = 0; w < pass.writes.size(); ++w) {
             const Demand& written = of(pass.writes[w].resource);
-            if (isPerSample && !written.isRead && graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].format != Format::depth32f) planned->writes[w] = false;
+            if (isPerSample && !written.isRead
+                && graph.resources[static_cast<std::size_t>(pass.writes[w].resource.index)].format != Format::depth32f)
+                planned->writes[w] = false;
             if (isPerSample) planned->runs = planned->runs || written.isRead;
-            planned->halo = std::max(planned->halo, written.halo), planned->whole = planned->whole || written.whole;
+            planned->halo = std::max(planned->halo, written.halo);
+            planned->whole = planned->whole || written.whole;
         }
         // Even, so that images of half the size have the picture's pixels in the same places.
         planned->halo = (planned->halo + 1) / 2 * 2;
         if (!planned->runs) continue;
         for (const auto& read : pass.reads) {
             Demand& needed = of(read.resource);
-            needed.isRead = true, needed.halo = std::max(needed.halo, planned->halo + read.halo), needed.whole = needed.whole || read.whole || planned->whole;
+            needed.isRead = true;
+            needed.halo = std::max(needed.halo, planned->halo + read.halo);
+            needed.whole = needed.whole || read.whole || planned->whole;
         }
     }
 }
@@ -61,7 +77,9 @@ private:
         for (std::size_t p = 0; p < graph_.passes.size(); ++p) {
             for (const auto& write : graph_.passes[p].writes) {
                 int& writer = writer_[index(write.resource)];
-                if (writer >= 0) fail(fmt::format("'{}' is written by {} and by {}", graph_.resources[index(write.resource)].name, graph_.passes[static_cast<std::size_t>(writer)].name, graph_.passes[p].name));
+                if (writer >= 0)
+                    fail(fmt::format("'{}' is written by {} and by {}", graph_.resources[index(write.resource)].name,
+                        graph_.passes[static_cast<std::size_t>(writer)].name, graph_.passes[p].name));
                 writer = static_cast<int>(p);
             }
         }
@@ -78,7 +96,8 @@ private:
         if (state_[p] == State::open) return fail(fmt::format("{} needs its own result '{}'", pass.name, name));
         state_[p] = State::open;
         reason_[p] = reason;
-        for (const auto& read : pass.reads) need(read.resource, fmt::format("{} reads {}", pass.name, graph_.resources[index(read.resource)].name));
+        for (const auto& read : pass.reads)
+            need(read.resource, fmt::format("{} reads {}", pass.name, graph_.resources[index(read.resource)].name));
         state_[p] = State::done;
     }
 
@@ -88,7 +107,8 @@ private:
             const Pass& pass = graph_.passes[p];
             if (state_[p] != State::done) {
                 std::string names;
-                for (const auto& write : pass.writes) names += (names.empty() ? "" : ", ") + graph_.resources[index(write.resource)].name;
+                for (const auto& write : pass.writes)
+                    names += (names.empty() ? "" : ", ") + graph_.resources[index(write.resource)].name;
                 plan_.culled.push_back({static_cast<int>(p), "nothing reads " + names});
                 continue;
             }
@@ -96,7 +116,8 @@ private:
             plan_.sceneData = plan_.sceneData | pass.needs;
             for (const auto& write : pass.writes) {
                 // A depth buffer serves its own pass even if nobody reads it afterwards.
-                const bool isOwnDepth = pass.kind == Pass::Kind::raster && graph_.resources[index(write.resource)].format == Format::depth32f;
+                const bool isOwnDepth = pass.kind == Pass::Kind::raster
+                    && graph_.resources[index(write.resource)].format == Format::depth32f;
                 if (isOwnDepth) live_[index(write.resource)] = true;
                 planned.writes.push_back(live_[index(write.resource)]);
                 if (planned.writes.back()) plan_.sceneData = plan_.sceneData | write.needs;
@@ -109,19 +130,26 @@ private:
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
         // What is read by what runs when it is not made anew must last from one run to the next.
-        const auto makesFor = [](Pass::Rate writer, Pass::Rate reader) { return writer == reader || writer == Pass::Rate::sample; };
+        const auto makesFor = [](Pass::Rate writer, Pass::Rate reader) {
+            return writer == reader || writer == Pass::Rate::sample;
+        };
         std::vector<Pass::Rate> rateOf(graph_.resources.size(), Pass::Rate::sample);
         std::vector<bool> mustLast(graph_.resources.size(), false);
         for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
             const Pass& pass = graph_.passes[static_cast<std::size_t>(plan_.passes[i].pass)];
             for (const auto& read : pass.reads) {
                 lastUse[index(read.resource)] = static_cast<int>(i);
-                mustLast[index(read.resource)] = mustLast[index(read.resource)] || !makesFor(rateOf[index(read.resource)], pass.rate);
+                mustLast[index(read.resource)] =
+                    mustLast[index(read.resource)] || !makesFor(rateOf[index(read.resource)], pass.rate);
             }
             for (const auto& write : pass.writes) rateOf[index(write.resource)] = pass.rate;
-            for (const auto& write : pass.writes) lastUse[index(write.resource)] = std::max(lastUse[index(write.resource)], static_cast<int>(i));
+            for (const auto& write : pass.writes)
+                lastUse[index(write.resource)] = std::max(lastUse[index(write.resource)], static_cast<int>(i));
         }
-        for (const auto& want : wanted_) lastUse[index(want.resource)] = kForever, mustLast[index(want.resource)] = rateOf[index(want.resource)] != Pass::Rate::sample;
+        for (const auto& want : wanted_) {
+            lastUse[index(want.resource)] = kForever;
+            mustLast[index(want.resource)] = rateOf[index(want.resource)] != Pass::Rate::sample;
+        }
 
         plan_.textureOf.assign(graph_.resources.size(), -1);
         std::vector<int> busyUntil;
@@ -135,9 +163,14 @@ private:
                 std::size_t slot = 0;
                 for (; slot < plan_.textures.size(); ++slot) {
                     const auto& texture = plan_.textures[slot];
-                    if (!persistent && !texture.persistent && texture.format == resource.format && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i)) break;
+                    if (!persistent && !texture.persistent && texture.format == resource.format
+                        && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i))
+                        break;
                 }
-                if (slot == plan_.textures.size()) plan_.textures.push_back({resource.format, resource.size, persistent, {}}), busyUntil.push_back(0);
+                if (slot == plan_.textures.size()) {
+                    plan_.textures.push_back({resource.format, resource.size, persistent, {}});
+                    busyUntil.push_back(0);
+                }
                 plan_.textures[slot].resources.push_back(static_cast<int>(r));
                 plan_.textureOf[r] = static_cast<int>(slot);
                 busyUntil[slot] = persistent ? kForever : lastUse[r];
@@ -171,7 +204,8 @@ std::uint64_t Plan::textureBytes() const {
     return bytes;
 }
 
-Plan narrow(const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue) {
+Plan narrow(
+    const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue) {
     for (auto& planned : plan.passes) planned.runs = isDue(graph.passes[static_cast<std::size_t>(planned.pass)]);
     spreadDemand(graph, plan, wanted);
     return plan;

@@ -1,14 +1,16 @@
 // The encoders behind openEncoder.
 //
-// PNG goes through libspng and EXR through OpenEXR, both linked in. JPEG, TIFF and reading go through OpenImageIO, which pulls in
-// hundreds of shared libraries and a fifth of a second: it lives in a module of its own that is loaded when something needs it.
+// PNG goes through libspng and EXR through OpenEXR, both linked in. JPEG, TIFF and reading go through OpenImageIO,
+// which pulls in hundreds of shared libraries and a fifth of a second: it lives in a module of its own that is loaded
+// when something needs it.
 #pragma once
 
 #include "image/image.h"
 
 namespace limn {
 
-std::unique_ptr<ImageEncoder> openPng(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options);
+std::unique_ptr<ImageEncoder> openPng(
+    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options);
 std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata);
 
 /// The functions that the OpenImageIO module offers.

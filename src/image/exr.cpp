@@ -36,7 +36,9 @@ private:
 };
 
 /// "R" for the beauty, "normal.X" for others: what compositing programs expect.
-std::string channelName(const Layer& layer, const std::string& channel) { return layer.name == "beauty" ? channel : layer.name + "." + channel; }
+std::string channelName(const Layer& layer, const std::string& channel) {
+    return layer.name == "beauty" ? channel : layer.name + "." + channel;
+}
 
 class ExrEncoder : public ImageEncoder {
 public:
@@ -45,8 +47,12 @@ public:
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
         for (const Layer& layer : layers)
-            for (const auto& channel : layer.channels) header.channels().insert(channelName(layer, channel), Imf::Channel(typeOf(layer)));
-        guarded([&] { file_ = std::make_unique<Imf::OutputFile>(stream_, header, static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))); });
+            for (const auto& channel : layer.channels)
+                header.channels().insert(channelName(layer, channel), Imf::Channel(typeOf(layer)));
+        guarded([&] {
+            file_ = std::make_unique<Imf::OutputFile>(
+                stream_, header, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+        });
     }
 
     void add(std::span<const Layer> band) override {
@@ -63,17 +69,23 @@ public:
                 size = sizeof(half);
                 halves[l].resize(pixels.size());
                 // Half ends at 65504: clamp rather than write infinity.
-                std::transform(pixels.begin(), pixels.end(), halves[l].begin(), [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
+                std::transform(pixels.begin(), pixels.end(), halves[l].begin(),
+                    [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
                 base = reinterpret_cast<const char*>(halves[l].data());
             } else if (layer.isInteger) {
                 size = sizeof(std::uint32_t);
                 integers[l].resize(pixels.size());
-                std::transform(pixels.begin(), pixels.end(), integers[l].begin(), [](float v) { return static_cast<std::uint32_t>(v); });
+                std::transform(pixels.begin(), pixels.end(), integers[l].begin(),
+                    [](float v) { return static_cast<std::uint32_t>(v); });
                 base = reinterpret_cast<const char*>(integers[l].data());
             }
-            const std::size_t step = static_cast<std::size_t>(layer.image.channels) * size, row = step * static_cast<std::size_t>(layer.image.width);
+            const std::size_t step = static_cast<std::size_t>(layer.image.channels) * size,
+                              row = step * static_cast<std::size_t>(layer.image.width);
             // The library counts rows from the picture's top.
-            for (std::size_t c = 0; c < layer.channels.size(); ++c) frame.insert(channelName(layer, layer.channels[c]), Imf::Slice(typeOf(layer), const_cast<char*>(base) + c * size - static_cast<std::ptrdiff_t>(row) * rows_, step, row));
+            for (std::size_t c = 0; c < layer.channels.size(); ++c)
+                frame.insert(channelName(layer, layer.channels[c]),
+                    Imf::Slice(typeOf(layer),
+                        const_cast<char*>(base) + c * size - static_cast<std::ptrdiff_t>(row) * rows_, step, row));
         }
         guarded([&] {
             file_->setFrameBuffer(frame);
@@ -88,7 +100,9 @@ public:
     }
 
 private:
-    static Imf::PixelType typeOf(const Layer& layer) { return layer.isColour ? Imf::HALF : layer.isInteger ? Imf::UINT : Imf::FLOAT; }
+    static Imf::PixelType typeOf(const Layer& layer) {
+        return layer.isColour ? Imf::HALF : layer.isInteger ? Imf::UINT : Imf::FLOAT;
+    }
 
     static void guarded(const auto& work) {
         try {
@@ -105,6 +119,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata) { return std::make_unique<ExrEncoder>(layers, height, metadata); }
+std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata) {
+    return std::make_unique<ExrEncoder>(layers, height, metadata);
+}
 
 }  // namespace limn

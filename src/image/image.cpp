@@ -18,14 +18,16 @@
 namespace limn {
 namespace {
 
-/// Linear 0 … 1 → 8 display-encoded bits, rounded to nearest: what linearToSrgb() gives, by where its steps are instead of a power per channel.
+/// Linear 0 … 1 → 8 display-encoded bits, rounded to nearest: what linearToSrgb() gives, by where its steps are instead
+/// of a power per channel.
 class EightBits {
 public:
     EightBits() {
         least_[0] = 0;
         for (int code = 1; code < 256; ++code) {
             // The least float that rounds to the code: bits of positive floats are in the order of their values.
-            std::uint32_t below = std::bit_cast<std::uint32_t>(least_[static_cast<std::size_t>(code - 1)]), reached = std::bit_cast<std::uint32_t>(1.0f);
+            std::uint32_t below = std::bit_cast<std::uint32_t>(least_[static_cast<std::size_t>(code - 1)]),
+                          reached = std::bit_cast<std::uint32_t>(1.0f);
             while (reached - below > 1) {
                 const std::uint32_t middle = below + (reached - below) / 2;
                 (std::lround(linearToSrgb(std::bit_cast<float>(middle)) * 255) >= code ? reached : below) = middle;
@@ -41,7 +43,7 @@ public:
 
     std::uint8_t operator()(float value) const {
         std::size_t code = first_[static_cast<std::size_t>(value * kCells)];
-        while (value >= least_[code + 1]) ++code;   // once at most: cells are narrower than the narrowest step
+        while (value >= least_[code + 1]) ++code;  // once at most: cells are narrower than the narrowest step
         return static_cast<std::uint8_t>(code);
     }
 
@@ -68,8 +70,10 @@ void quantizeRow(const Layer& layer, int y, T* out) {
             if (isEncoded) value = alpha > 0 ? value / alpha : 0.0f;
             // A NaN compares false and becomes 0; it is counted and reported elsewhere.
             value = value > 0 ? std::min(value, 1.0f) : 0.0f;
-            if (isEncoded && std::is_same_v<T, std::uint8_t>) out[c] = eightBits(value);
-            else out[c] = static_cast<T>(std::lround((isEncoded ? linearToSrgb(value) : value) * largest));
+            if (isEncoded && std::is_same_v<T, std::uint8_t>)
+                out[c] = eightBits(value);
+            else
+                out[c] = static_cast<T>(std::lround((isEncoded ? linearToSrgb(value) : value) * largest));
         }
     }
 }
@@ -77,13 +81,14 @@ void quantizeRow(const Layer& layer, int y, T* out) {
 template <class T>
 std::vector<T> quantize(const Layer& layer) {
     std::vector<T> result(layer.image.pixels.size());
-    tbb::parallel_for(0, layer.image.height, [&](int y) { quantizeRow(layer, y, result.data() + (layer.image.at(0, y) - layer.image.pixels.data())); });
+    tbb::parallel_for(0, layer.image.height,
+        [&](int y) { quantizeRow(layer, y, result.data() + (layer.image.at(0, y) - layer.image.pixels.data())); });
     return result;
 }
 
 template <class T>
 void quantizeRows(const Layer& layer, const std::function<void(const T*)>& take) {
-    constexpr int kRows = 8;   // at a time
+    constexpr int kRows = 8;  // at a time
     const Image& image = layer.image;
     const std::size_t length = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
     std::vector<std::vector<T>> parts(static_cast<std::size_t>((image.height + kRows - 1) / kRows));
@@ -92,7 +97,9 @@ void quantizeRows(const Layer& layer, const std::function<void(const T*)>& take)
         parts.size(),
         [&](std::size_t i) {
             parts[i].resize(length * static_cast<std::size_t>(rowsOf(i)));
-            for (int row = 0; row < rowsOf(i); ++row) quantizeRow(layer, static_cast<int>(i) * kRows + row, parts[i].data() + length * static_cast<std::size_t>(row));
+            for (int row = 0; row < rowsOf(i); ++row)
+                quantizeRow(
+                    layer, static_cast<int>(i) * kRows + row, parts[i].data() + length * static_cast<std::size_t>(row));
         },
         [&](std::size_t i) {
             for (int row = 0; row < rowsOf(i); ++row) take(parts[i].data() + length * static_cast<std::size_t>(row));
@@ -104,12 +111,17 @@ void quantizeRows(const Layer& layer, const std::function<void(const T*)>& take)
 
 std::vector<std::uint8_t> quantize8(const Layer& layer) { return quantize<std::uint8_t>(layer); }
 std::vector<std::uint16_t> quantize16(const Layer& layer) { return quantize<std::uint16_t>(layer); }
-void quantizeRows8(const Layer& layer, const std::function<void(const std::uint8_t*)>& take) { quantizeRows(layer, take); }
-void quantizeRows16(const Layer& layer, const std::function<void(const std::uint16_t*)>& take) { quantizeRows(layer, take); }
+void quantizeRows8(const Layer& layer, const std::function<void(const std::uint8_t*)>& take) {
+    quantizeRows(layer, take);
+}
+void quantizeRows16(const Layer& layer, const std::function<void(const std::uint16_t*)>& take) {
+    quantizeRows(layer, take);
+}
 
 std::optional<FileFormat> fileFormat(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".png") return FileFormat::png;
     if (extension == ".jpg" || extension == ".jpeg") return FileFormat::jpeg;
     if (extension == ".tif" || extension == ".tiff") return FileFormat::tiff;
@@ -117,7 +129,8 @@ std::optional<FileFormat> fileFormat(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options) {
+std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height,
+    const Metadata& metadata, const EncodeOptions& options) {
     switch (format) {
         case FileFormat::png: return openPng(layers.front(), height, metadata, options);
         case FileFormat::exr: return openExr(layers, height, metadata);
@@ -127,7 +140,8 @@ std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Lay
     throw Error(ExitCode::internal, {}, "unknown file format");
 }
 
-std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
+std::vector<std::byte> encodeImage(
+    FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
     const auto encoder = openEncoder(format, layers, layers.front().image.height, metadata, options);
     encoder->add(layers);
     return encoder->finish();

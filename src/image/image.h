@@ -19,15 +19,19 @@ struct Image {
     int width = 0, height = 0, channels = 0;
     std::vector<float> pixels;
 
-    float* at(int x, int y) { return pixels.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels); }
+    float* at(int x, int y) {
+        return pixels.data()
+            + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))
+            * static_cast<std::size_t>(channels);
+    }
     const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 
 /// One named image of a picture: an AOV. Integer AOVs carry whole numbers below 2^24 in their floats.
 struct Layer {
     std::string name;
-    std::vector<std::string> channels;   ///< "R", "G" ...: as EXR names them
-    bool isColour = false;               ///< display-encoded in 8 and 16 bit files; half precision in EXR
+    std::vector<std::string> channels;  ///< "R", "G" ...: as EXR names them
+    bool isColour = false;              ///< display-encoded in 8 and 16 bit files; half precision in EXR
     bool isInteger = false;
     Image image;
 };
@@ -42,10 +46,10 @@ std::optional<FileFormat> fileFormat(const std::filesystem::path& path);
 inline bool isMultiLayer(FileFormat format) { return format == FileFormat::exr; }
 
 struct EncodeOptions {
-    int bits = 8;             ///< 8 or 16: PNG and TIFF
-    int compression = 1;      ///< zlib level of PNG: 1 fast … 9 small
-    int quality = 92;         ///< JPEG
-    double dpi = 0;           ///< pixels per inch, for printing; 0: not said
+    int bits = 8;         ///< 8 or 16: PNG and TIFF
+    int compression = 1;  ///< zlib level of PNG: 1 fast … 9 small
+    int quality = 92;     ///< JPEG
+    double dpi = 0;       ///< pixels per inch, for printing; 0: not said
 };
 
 /// Makes a file's bytes from a picture that comes band by band.
@@ -58,11 +62,14 @@ public:
     virtual std::vector<std::byte> finish() = 0;
 };
 
-/// One layer, except for EXR. `layers` say what will come (their images' width and channels), `height` how many rows. Throws Error.
-std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options);
+/// One layer, except for EXR. `layers` say what will come (their images' width and channels), `height` how many rows.
+/// Throws Error.
+std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height,
+    const Metadata& metadata, const EncodeOptions& options);
 
 /// The bytes of a picture that is there as a whole.
-std::vector<std::byte> encodeImage(FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
+std::vector<std::byte> encodeImage(
+    FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
 
 /// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.
 Image readImage(const std::filesystem::path& path);

@@ -13,7 +13,10 @@ const ImageModule& imageModule() {
     static const ImageModule* module = [] {
         const auto path = moduleFolder() / "limn-oiio.so";
         void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (!library) throw Error(ExitCode::internal, {path.string()}, fmt::format("the image module cannot be loaded ({})", dlerror()), "it belongs beside the program: build or install limn again");
+        if (!library)
+            throw Error(ExitCode::internal, {path.string()},
+                fmt::format("the image module cannot be loaded ({})", dlerror()),
+                "it belongs beside the program: build or install limn again");
         return static_cast<const ImageModule*>(dlsym(library, "limnImageModule"));
     }();
     return *module;

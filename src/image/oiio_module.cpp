@@ -13,15 +13,21 @@ namespace {
 
 class OiioEncoder : public ImageEncoder {
 public:
-    OiioEncoder(const char* format, const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options, int bits) : format_(format), bits_(bits), proxy_(buffer_) {
-        dropsAlpha_ = layer.image.channels == 4 && format_ == "jpeg";   // JPEG has none: what is left of the colour over black
-        OIIO::ImageSpec spec(layer.image.width, height, dropsAlpha_ ? 3 : layer.image.channels, bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
+    OiioEncoder(const char* format, const Layer& layer, int height, const Metadata& metadata,
+        const EncodeOptions& options, int bits)
+        : format_(format), bits_(bits), proxy_(buffer_) {
+        dropsAlpha_ =
+            layer.image.channels == 4 && format_ == "jpeg";  // JPEG has none: what is left of the colour over black
+        OIIO::ImageSpec spec(layer.image.width, height, dropsAlpha_ ? 3 : layer.image.channels,
+            bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
         spec.attribute("oiio:ColorSpace", layer.isColour ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         // The TIFF writer would put the present time: the same input must give the same bytes.
         spec.attribute("DateTime", "1970:01:01 00:00:00");
-        if (format_ == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
-        else spec.attribute("Compression", "zip");
+        if (format_ == "jpeg")
+            spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
+        else
+            spec.attribute("Compression", "zip");
         if (options.dpi > 0) {
             spec.attribute("ResolutionUnit", "in");
             spec.attribute("XResolution", static_cast<float>(options.dpi));
@@ -48,7 +54,8 @@ public:
             source = &opaque;
         }
         const int end = rows_ + source->image.height;
-        check(bits_ == 16 ? output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt16, quantize16(*source).data()) : output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt8, quantize8(*source).data()));
+        check(bits_ == 16 ? output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt16, quantize16(*source).data())
+                          : output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt8, quantize8(*source).data()));
         rows_ = end;
     }
 
@@ -60,7 +67,9 @@ public:
 
 private:
     void check(bool done) const {
-        if (!done) throw Error(ExitCode::internal, {}, fmt::format("{} encoding failed ({})", format_, output_ ? output_->geterror() : OIIO::geterror()));
+        if (!done)
+            throw Error(ExitCode::internal, {},
+                fmt::format("{} encoding failed ({})", format_, output_ ? output_->geterror() : OIIO::geterror()));
     }
 
     std::string format_;
@@ -71,27 +80,40 @@ private:
     std::unique_ptr<OIIO::ImageOutput> output_;
 };
 
-std::unique_ptr<ImageEncoder> openJpeg(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<OiioEncoder>("jpeg", layer, height, metadata, options, 8); }
-std::unique_ptr<ImageEncoder> openTiff(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<OiioEncoder>("tiff", layer, height, metadata, options, options.bits); }
+std::unique_ptr<ImageEncoder> openJpeg(
+    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) {
+    return std::make_unique<OiioEncoder>("jpeg", layer, height, metadata, options, 8);
+}
+std::unique_ptr<ImageEncoder> openTiff(
+    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) {
+    return std::make_unique<OiioEncoder>("tiff", layer, height, metadata, options, options.bits);
+}
 
 Image read(const std::filesystem::path& path) {
-    const auto fail = [&](const std::string& why) { throw Error(ExitCode::badData, {path.string()}, fmt::format("the image cannot be read ({})", why), "save it again as PNG, JPEG, TIFF or EXR"); };
+    const auto fail = [&](const std::string& why) {
+        throw Error(ExitCode::badData, {path.string()}, fmt::format("the image cannot be read ({})", why),
+            "save it again as PNG, JPEG, TIFF or EXR");
+    };
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     const auto input = OIIO::ImageInput::open(path.string(), &hints);
     if (!input) fail(OIIO::geterror());
     const auto& spec = input->spec();
     constexpr int kLargest = 1 << 16;
-    if (spec.width < 1 || spec.height < 1 || spec.width > kLargest || spec.height > kLargest || spec.nchannels < 1) fail("unusable size");
+    if (spec.width < 1 || spec.height < 1 || spec.width > kLargest || spec.height > kLargest || spec.nchannels < 1)
+        fail("unusable size");
     Image image{spec.width, spec.height, std::min(spec.nchannels, 4), {}};
-    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * static_cast<std::size_t>(image.channels));
+    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)
+        * static_cast<std::size_t>(image.channels));
     if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeFloat, image.pixels.data())) fail(input->geterror());
     // Integer pictures are display-encoded unless they say otherwise; float pictures are linear.
-    const auto space = spec.get_string_attribute("oiio:ColorSpace", spec.format.is_floating_point() ? "Linear" : "sRGB");
+    const auto space =
+        spec.get_string_attribute("oiio:ColorSpace", spec.format.is_floating_point() ? "Linear" : "sRGB");
     const int colours = image.channels >= 3 ? 3 : 1;
     if (OIIO::Strutil::iequals(space, "sRGB") || !spec.format.is_floating_point())
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
-            if (static_cast<int>(i % static_cast<std::size_t>(image.channels)) < colours) image.pixels[i] = srgbToLinear(image.pixels[i]);
+            if (static_cast<int>(i % static_cast<std::size_t>(image.channels)) < colours)
+                image.pixels[i] = srgbToLinear(image.pixels[i]);
     return image;
 }
 

@@ -14,13 +14,17 @@ namespace limn {
 namespace {
 
 void check(int status) {
-    if (status != 0) throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {}, fmt::format("PNG encoding failed ({})", spng_strerror(status)));
+    if (status != 0)
+        throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {},
+            fmt::format("PNG encoding failed ({})", spng_strerror(status)));
 }
 
 class PngEncoder : public ImageEncoder {
 public:
-    PngEncoder(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) : bits_(options.bits), height_(height), context_(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free) {
-        constexpr std::uint8_t colorTypes[] = {0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
+    PngEncoder(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options)
+        : bits_(options.bits), height_(height), context_(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free) {
+        constexpr std::uint8_t colorTypes[] = {0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA,
+            SPNG_COLOR_TYPE_TRUECOLOR, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
         spng_ihdr header{};
         header.width = static_cast<std::uint32_t>(layer.image.width);
         header.height = static_cast<std::uint32_t>(height);
@@ -28,9 +32,13 @@ public:
         header.color_type = colorTypes[layer.image.channels];
         check(spng_set_option(context_.get(), SPNG_ENCODE_TO_BUFFER, 1));
         check(spng_set_option(context_.get(), SPNG_IMG_COMPRESSION_LEVEL, options.compression));
-        // Measured on pictures of all kinds: flat stylized colours compress best as they are, smooth numbers by what changed from the row before. To choose
-        // anew for each row takes twice the time, and wins something at high levels only.
-        check(spng_set_option(context_.get(), SPNG_FILTER_CHOICE, options.compression > 2 ? SPNG_FILTER_CHOICE_ALL : layer.isColour ? SPNG_DISABLE_FILTERING : SPNG_FILTER_CHOICE_UP));
+        // Measured on pictures of all kinds: flat stylized colours compress best as they are, smooth numbers by what
+        // changed from the row before. To choose anew for each row takes twice the time, and wins something at high
+        // levels only.
+        check(spng_set_option(context_.get(), SPNG_FILTER_CHOICE,
+            options.compression > 2 ? SPNG_FILTER_CHOICE_ALL
+                : layer.isColour    ? SPNG_DISABLE_FILTERING
+                                    : SPNG_FILTER_CHOICE_UP));
         check(spng_set_ihdr(context_.get(), &header));
         if (layer.isColour) check(spng_set_srgb(context_.get(), 0));
         if (options.dpi > 0) {
@@ -48,8 +56,10 @@ public:
             texts.push_back(text);
         }
         // Copied at the header's writing, which the first call below is.
-        if (!texts.empty()) check(spng_set_text(context_.get(), texts.data(), static_cast<std::uint32_t>(texts.size())));
-        check(spng_encode_image(context_.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+        if (!texts.empty())
+            check(spng_set_text(context_.get(), texts.data(), static_cast<std::uint32_t>(texts.size())));
+        check(spng_encode_image(
+            context_.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
     }
 
     void add(std::span<const Layer> band) override {
@@ -59,14 +69,17 @@ public:
             const int status = spng_encode_row(context_.get(), pixels, row * sizeof(*pixels));
             if (++rows_ < height_ || status != SPNG_EOI) check(status);
         };
-        if (bits_ == 16) quantizeRows16(band.front(), write);
-        else quantizeRows8(band.front(), write);
+        if (bits_ == 16)
+            quantizeRows16(band.front(), write);
+        else
+            quantizeRows8(band.front(), write);
     }
 
     std::vector<std::byte> finish() override {
         std::size_t size = 0;
         int status = 0;
-        const std::unique_ptr<void, void (*)(void*)> buffer(spng_get_png_buffer(context_.get(), &size, &status), std::free);
+        const std::unique_ptr<void, void (*)(void*)> buffer(
+            spng_get_png_buffer(context_.get(), &size, &status), std::free);
         check(status);
         const auto* bytes = static_cast<const std::byte*>(buffer.get());
         return {bytes, bytes + size};
@@ -79,6 +92,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ImageEncoder> openPng(const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) { return std::make_unique<PngEncoder>(layer, height, metadata, options); }
+std::unique_ptr<ImageEncoder> openPng(
+    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) {
+    return std::make_unique<PngEncoder>(layer, height, metadata, options);
+}
 
 }  // namespace limn

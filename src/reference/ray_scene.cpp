@@ -14,8 +14,12 @@
 namespace limn {
 namespace {
 
-struct ReleaseDevice { void operator()(RTCDevice device) const { rtcReleaseDevice(device); } };
-struct ReleaseScene { void operator()(RTCScene scene) const { rtcReleaseScene(scene); } };
+struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
 using TreeDevice = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
@@ -23,8 +27,11 @@ using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 void check(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the ray tracing tree", "use coarser meshes, or a screen-space technique");
-    throw Error(ExitCode::internal, {}, "Embree failed with code " + std::to_string(static_cast<int>(error)), "please report this");
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the ray tracing tree",
+            "use coarser meshes, or a screen-space technique");
+    throw Error(ExitCode::internal, {}, "Embree failed with code " + std::to_string(static_cast<int>(error)),
+        "please report this");
 }
 
 Tree makeScene(RTCDevice device) {
@@ -35,14 +42,18 @@ Tree makeScene(RTCDevice device) {
 
 /// What Embree needs to know to let rays through the holes of a mesh.
 struct Holes {
-    std::vector<const Image*> mask;         ///< of each triangle; null: it has none
-    std::vector<glm::vec2> uvs;             ///< three per triangle
+    std::vector<const Image*> mask;  ///< of each triangle; null: it has none
+    std::vector<glm::vec2> uvs;      ///< three per triangle
 };
 
 float alphaAt(const Image& mask, glm::vec2 uv) {
     // Bilinear, repeating, as shaders/lib/texture.glsl does.
-    const glm::vec2 size(mask.width, mask.height), at = (uv - glm::floor(uv)) * size - 0.5f, cell = glm::floor(at), f = at - cell;
-    const auto texel = [&](int x, int y) { return mask.at((static_cast<int>(cell.x) + x + mask.width) % mask.width, (static_cast<int>(cell.y) + y + mask.height) % mask.height)[3]; };
+    const glm::vec2 size(mask.width, mask.height), at = (uv - glm::floor(uv)) * size - 0.5f, cell = glm::floor(at),
+                                                   f = at - cell;
+    const auto texel = [&](int x, int y) {
+        return mask.at((static_cast<int>(cell.x) + x + mask.width) % mask.width,
+            (static_cast<int>(cell.y) + y + mask.height) % mask.height)[3];
+    };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
 
@@ -54,14 +65,18 @@ void ignoreHoles(const RTCFilterFunctionNArguments* call) {
         if (!holes.mask[triangle]) continue;
         const float u = RTCHitN_u(call->hit, call->N, i), v = RTCHitN_v(call->hit, call->N, i);
         const glm::vec2* uv = holes.uvs.data() + 3 * triangle;
-        if (alphaAt(*holes.mask[triangle], uv[0] + u * (uv[1] - uv[0]) + v * (uv[2] - uv[0])) < 0.5f) call->valid[i] = 0;
+        if (alphaAt(*holes.mask[triangle], uv[0] + u * (uv[1] - uv[0]) + v * (uv[2] - uv[0])) < 0.5f)
+            call->valid[i] = 0;
     }
 }
 
-void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const glm::dmat3& linear, const glm::dvec3& offset, Holes* holes = nullptr) {
+void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const glm::dmat3& linear,
+    const glm::dvec3& offset, Holes* holes = nullptr) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
     if (vertices && indices) {
         tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) {
             const glm::vec3 p(linear * glm::dvec3(mesh.positions[i]) + offset);
@@ -86,7 +101,7 @@ struct RayScene::Trees {
     TreeDevice device;
     std::vector<Tree> shared;
     Tree top;
-    std::map<std::string, Image> masks;               ///< by their files
+    std::map<std::string, Image> masks;  ///< by their files
     std::vector<std::unique_ptr<Holes>> holes;
 
     /// For each of the mesh's materials, as an instance shows it, the image that cuts holes; empty where none does.
@@ -113,13 +128,15 @@ struct RayScene::Trees {
         made.uvs.reserve(3 * mesh.triangleCount());
         for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
             made.mask.push_back(maskOf[mesh.triangleMaterial.empty() ? 0 : mesh.triangleMaterial[t]]);
-            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) made.uvs.push_back(mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]]);
+            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
+                made.uvs.push_back(mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]]);
         }
         return &made;
     }
 };
 
-RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf) : trees_(std::make_unique<Trees>()), unit_(scene.info.unit()) {
+RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf)
+    : trees_(std::make_unique<Trees>()), unit_(scene.info.unit()) {
     origin_ = scene.info.bounds.empty() ? glm::dvec3(0) : scene.info.bounds.lo;
     trees_->device.reset(rtcNewDevice(nullptr));
     if (!trees_->device) check(nullptr);
@@ -129,7 +146,8 @@ RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
     using Look = std::pair<int, std::vector<const Image*>>;
     std::vector<Look> looks;
     std::map<Look, int> uses;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) ++uses[looks.emplace_back(meshOf[i], trees_->masksOf(scene, scene.instances[i]))];
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        ++uses[looks.emplace_back(meshOf[i], trees_->masksOf(scene, scene.instances[i]))];
     std::map<Look, RTCScene> shared;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto number = static_cast<std::size_t>(meshOf[i]);
@@ -155,7 +173,8 @@ RayScene::RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std:
         rtcSetGeometryInstancedScene(instance, tree);
         float columns[12];
         for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 3; ++row) columns[3 * column + row] = static_cast<float>(column < 3 ? linear[column][row] : offset[row]);
+            for (int row = 0; row < 3; ++row)
+                columns[3 * column + row] = static_cast<float>(column < 3 ? linear[column][row] : offset[row]);
         rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
         rtcCommitGeometry(instance);
         rtcAttachGeometry(trees_->top.get(), instance);

@@ -1,7 +1,8 @@
 // A scene's triangles for rays, with Embree in robust (watertight) mode.
 //
-// Ray space: (world − origin) · unit, as float. The origin is a corner of the scene's box and the unit a power of two that brings its
-// diagonal to [1, 2), so that scenes far away and of any size are the same scene to the bit, and coordinates lie in [0, 2).
+// Ray space: (world − origin) · unit, as float. The origin is a corner of the scene's box and the unit a power of two
+// that brings its diagonal to [1, 2), so that scenes far away and of any size are the same scene to the bit, and
+// coordinates lie in [0, 2).
 #pragma once
 
 #include "frame/gpu_scene.h"
@@ -16,8 +17,8 @@ namespace limn {
 
 class RayScene {
 public:
-    /// Builds the tree. `meshOf`: the mesh of each instance of the scene. Meshes that stand once are built in place; of meshes that stand
-    /// more often one tree is shared. Keeps no reference to the meshes. Throws Error (out of memory).
+    /// Builds the tree. `meshOf`: the mesh of each instance of the scene. Meshes that stand once are built in place; of
+    /// meshes that stand more often one tree is shared. Keeps no reference to the meshes. Throws Error (out of memory).
     RayScene(const DrawScene& scene, std::span<const TriMesh> meshes, std::span<const int> meshOf);
     ~RayScene();
     RayScene(const RayScene&) = delete;

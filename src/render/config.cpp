@@ -20,21 +20,35 @@ struct Header {
     Accuracy accuracy = Accuracy::exact;
 };
 constexpr Field kHeader[] = {
-    field<&Header::scene>("scene", {.required = true, .doc = "Scene file or OBJ, relative to this file."}),
-    field<&Header::camera>("camera", {.doc = "Name of the camera; the scene's first if left out."}),
-    field<&Header::sections>("sections", {.doc = "Names of the scene's sections to cut it open by; those without a name always do."}),
-    field<&Header::accuracy>("accuracy", {.doc = "\"exact\": analytic evaluation per pixel; \"fast\": the hardware's interpolation."}),
-    field<&Header::frames>("frames", {.doc = "Range of frames to draw, such as \"1-24\"; narrows the scene's."}),
+    field<&Header::scene>("scene", {.required = true}, "Scene file or OBJ, relative to this file."),
+    field<&Header::camera>("camera", "Name of the camera; the scene's first if left out."),
+    field<&Header::sections>(
+        "sections", "Names of the scene's sections to cut it open by; those without a name always do."),
+    field<&Header::accuracy>(
+        "accuracy", "\"exact\": analytic evaluation per pixel; \"fast\": the hardware's interpolation."),
+    field<&Header::frames>("frames", "Range of frames to draw, such as \"1-24\"; narrows the scene's."),
 };
 
 constexpr Field kImage[] = {
-    field<&ImageSettings::size>("size", {.unit = "pixels", .min = 1, .max = 65536, .keyable = false, .doc = "Width and height of the picture."}),
-    field<&ImageSettings::samples>("samples", {.min = 1, .max = 4096, .accuracy = true, .keyable = false, .doc = "Samples per pixel: antialiasing, and less noise."}),
-    field<&ImageSettings::aoSamples>("ao_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false, .doc = "In how many of these samples ambient occlusion is found; 0: in a half, but at least four. It is smooth: more make it less noisy, but hardly sharper."}),
-    field<&ImageSettings::lineSamples>("line_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false, .doc = "In how many of these samples lines are found; 0: in a quarter, but at least four. Lines have smooth borders from one sample on: more are for folds and gaps as narrow as a pixel."}),
-    field<&ImageSettings::guard>("guard", {.unit = "longer sides", .min = 0, .max = 1, .accuracy = true, .keyable = false, .doc = "How wide a band around the picture may be drawn for effects that look around themselves; made only as wide as they need, and at most 512 pixels."}),
-    field<&ImageSettings::tile>("tile", {.unit = "pixels", .min = 0, .max = 65536, .keyable = false, .doc = "Draw the picture in tiles of at most this size each way; 0: as large as memory allows. The picture is the same to the bit."}),
-    field<&ImageSettings::dpi>("dpi", {.unit = "pixels per inch", .min = 1, .max = 100000, .doc = "Gives millimetres a meaning."}),
+    field<&ImageSettings::size>(
+        "size", {.unit = "pixels", .min = 1, .max = 65536, .keyable = false}, "Width and height of the picture."),
+    field<&ImageSettings::samples>("samples", {.min = 1, .max = 4096, .accuracy = true, .keyable = false},
+        "Samples per pixel: antialiasing, and less noise."),
+    field<&ImageSettings::aoSamples>("ao_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false},
+        "In how many of these samples ambient occlusion is found; 0: in a half, but at least four. It is smooth: more "
+        "make it less noisy, but hardly sharper."),
+    field<&ImageSettings::lineSamples>("line_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false},
+        "In how many of these samples lines are found; 0: in a quarter, but at least four. Lines have smooth borders "
+        "from one sample on: more are for folds and gaps as narrow as a pixel."),
+    field<&ImageSettings::guard>("guard",
+        {.unit = "longer sides", .min = 0, .max = 1, .accuracy = true, .keyable = false},
+        "How wide a band around the picture may be drawn for effects that look around themselves; made only as wide as "
+        "they need, and at most 512 pixels."),
+    field<&ImageSettings::tile>("tile", {.unit = "pixels", .min = 0, .max = 65536, .keyable = false},
+        "Draw the picture in tiles of at most this size each way; 0: as large as memory allows. The picture is the "
+        "same to the bit."),
+    field<&ImageSettings::dpi>(
+        "dpi", {.unit = "pixels per inch", .min = 1, .max = 100000}, "Gives millimetres a meaning."),
 };
 
 enum class Orientation { portrait, landscape };
@@ -52,15 +66,21 @@ inline constexpr std::array<std::string_view, 2> enumNames<Orientation> = {"port
 namespace {
 
 constexpr Field kSheet[] = {
-    field<&Sheet::size>("size", {.required = true, .doc = "\"A0\" to \"A6\", or width and height in millimetres: \"600x400\". With image.dpi it gives the picture's size."}),
-    field<&Sheet::orientation>("orientation", {.doc = "portrait: the sheet's short side below; landscape: its long side."}),
-    field<&Sheet::scale>("scale", {.doc = "\"1:50\": a metre of the scene is 20 mm on paper. Needs an orthographic camera; without it the camera says what the sheet shows."}),
+    field<&Sheet::size>("size", {.required = true},
+        "\"A0\" to \"A6\", or width and height in millimetres: \"600x400\". With image.dpi it gives the picture's "
+        "size."),
+    field<&Sheet::orientation>("orientation", "portrait: the sheet's short side below; landscape: its long side."),
+    field<&Sheet::scale>("scale",
+        "\"1:50\": a metre of the scene is 20 mm on paper. Needs an orthographic camera; without it the camera says "
+        "what the sheet shows."),
 };
 
 /// Millimetres, the short side first; nullopt for a name that is none.
 std::optional<glm::dvec2> paperSize(const std::string& name) {
-    constexpr double series[][2] = {{841, 1189}, {594, 841}, {420, 594}, {297, 420}, {210, 297}, {148, 210}, {105, 148}};
-    if (name.size() == 2 && (name[0] == 'A' || name[0] == 'a') && name[1] >= '0' && name[1] <= '6') return glm::dvec2(series[name[1] - '0'][0], series[name[1] - '0'][1]);
+    constexpr double series[][2] = {
+        {841, 1189}, {594, 841}, {420, 594}, {297, 420}, {210, 297}, {148, 210}, {105, 148}};
+    if (name.size() == 2 && (name[0] == 'A' || name[0] == 'a') && name[1] >= '0' && name[1] <= '6')
+        return glm::dvec2(series[name[1] - '0'][0], series[name[1] - '0'][1]);
     const auto cross = name.find('x');
     if (cross == std::string::npos) return std::nullopt;
     const auto width = parseNumber(name.substr(0, cross)), height = parseNumber(name.substr(cross + 1));
@@ -78,17 +98,22 @@ std::optional<double> parseScale(const std::string& text) {
 }
 
 constexpr Field kOutput[] = {
-    field<&EncodeOptions::bits>("bits", {.min = 8, .max = 16, .doc = "Bits per channel of PNG and TIFF: 8 or 16."}),
-    field<&EncodeOptions::compression>("compression", {.min = 0, .max = 9, .doc = "Compression of PNG: 1 fast to 9 small."}),
-    field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100, .doc = "Quality of JPEG."}),
+    field<&EncodeOptions::bits>("bits", {.min = 8, .max = 16}, "Bits per channel of PNG and TIFF: 8 or 16."),
+    field<&EncodeOptions::compression>("compression", {.min = 0, .max = 9}, "Compression of PNG: 1 fast to 9 small."),
+    field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100}, "Quality of JPEG."),
 };
 
 class ConfigReader {
 public:
-    ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) : document_(std::move(document)), overrides_(overrides) {
+    ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides)
+        : document_(std::move(document)), overrides_(overrides) {
         for (const auto& setting : overrides.settings) applySetting(document_, setting);
         config_.file = path;
-        config_.hash = Hash().add(canonicalText(document_)).add(overrides.camera).add(overrides.subdivide ? std::to_string(*overrides.subdivide) : "").hex();
+        config_.hash = Hash()
+                           .add(canonicalText(document_))
+                           .add(overrides.camera)
+                           .add(overrides.subdivide ? std::to_string(*overrides.subdivide) : "")
+                           .hex();
     }
 
     RenderConfig read() {
@@ -102,9 +127,13 @@ public:
         config_.sections = header.sections;
         if (!header.scene.empty()) {
             config_.scene = pathIn(*document_.find("scene"));
-            if (!fileExists(config_.scene)) fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()), "paths are relative to the file that names them", ExitCode::missingInput);
+            if (!fileExists(config_.scene))
+                fail(*document_.find("scene"), fmt::format("the scene '{}' does not exist", config_.scene.string()),
+                    "paths are relative to the file that names them", ExitCode::missingInput);
         }
-        if (!header.frames.empty() && !(config_.frames = parseFrameRange(header.frames))) fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames), "write for example \"1-24\"");
+        if (!header.frames.empty() && !(config_.frames = parseFrameRange(header.frames)))
+            fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames),
+                "write for example \"1-24\"");
         readImage();
         readSheet();
         readEffects();
@@ -114,7 +143,9 @@ public:
     }
 
 private:
-    void fail(const Node& node, std::string problem, std::string remedy, ExitCode code = ExitCode::usage) { errors_.add({code, node.where, std::move(problem), std::move(remedy)}); }
+    void fail(const Node& node, std::string problem, std::string remedy, ExitCode code = ExitCode::usage) {
+        errors_.add({code, node.where, std::move(problem), std::move(remedy)});
+    }
 
     void readImage() {
         const Node* node = document_.find("image");
@@ -123,13 +154,18 @@ private:
         readFields(*node, kImage, &config_.image, nullptr, "[image]", errors_, alsoKnown);
         if (const Node* seed = node->find("seed")) {
             const auto* number = std::get_if<std::int64_t>(&seed->value);
-            if (seed->text() && *seed->text() == "frame") config_.image.seedIsFrame = true;
-            else if (number && *number >= 0 && *number < (std::int64_t{1} << 31)) config_.image.seed = static_cast<unsigned>(*number);
-            else fail(*seed, "'seed' in [image] must be a whole number from 0 or \"frame\"", "");
+            if (seed->text() && *seed->text() == "frame")
+                config_.image.seedIsFrame = true;
+            else if (number && *number >= 0 && *number < (std::int64_t{1} << 31))
+                config_.image.seed = static_cast<unsigned>(*number);
+            else
+                fail(*seed, "'seed' in [image] must be a whole number from 0 or \"frame\"", "");
         }
         if (const Node* background = node->find("background")) {
-            if (background->text() && *background->text() == "transparent") config_.image.transparent = true;
-            else if (auto problem = fieldType<Color>().read(&config_.image.background, *background, kImage[0])) fail(*background, "'background' in [image] " + *problem, "or \"transparent\"");
+            if (background->text() && *background->text() == "transparent")
+                config_.image.transparent = true;
+            else if (auto problem = fieldType<Color>().read(&config_.image.background, *background, kImage[0]))
+                fail(*background, "'background' in [image] " + *problem, "or \"transparent\"");
         }
     }
 
@@ -138,41 +174,60 @@ private:
         if (!node) return;
         Sheet sheet;
         readFields(*node, kSheet, &sheet, nullptr, "[sheet]", errors_);
-        if (const Node* image = document_.find("image"); image && image->find("size")) fail(*image->find("size"), "'size' in [image] stands beside [sheet]", "the sheet's size and image.dpi give the picture's: remove one of the two");
+        if (const Node* image = document_.find("image"); image && image->find("size"))
+            fail(*image->find("size"), "'size' in [image] stands beside [sheet]",
+                "the sheet's size and image.dpi give the picture's: remove one of the two");
         if (sheet.size.empty()) return;
         if (const auto paper = paperSize(sheet.size)) {
             const bool named = sheet.size.find('x') == std::string::npos;
-            const glm::dvec2 millimetres = named && sheet.orientation == Orientation::landscape ? glm::dvec2(paper->y, paper->x) : *paper;
+            const glm::dvec2 millimetres =
+                named && sheet.orientation == Orientation::landscape ? glm::dvec2(paper->y, paper->x) : *paper;
             const glm::dvec2 pixels = millimetres / 25.4 * config_.image.dpi;
-            if (std::max(pixels.x, pixels.y) > 65536) fail(*node->find("size"), fmt::format("the sheet has {:.0f}×{:.0f} pixels at {} dpi, more than 65536", pixels.x, pixels.y, config_.image.dpi), "lower image.dpi");
+            if (std::max(pixels.x, pixels.y) > 65536)
+                fail(*node->find("size"),
+                    fmt::format("the sheet has {:.0f}×{:.0f} pixels at {} dpi, more than 65536", pixels.x, pixels.y,
+                        config_.image.dpi),
+                    "lower image.dpi");
             config_.image.size = glm::max(glm::ivec2(glm::round(pixels)), glm::ivec2(1));
         } else {
-            fail(*node->find("size"), fmt::format("'{}' is no sheet", sheet.size), "write \"A1\" or, in millimetres, \"600x400\"");
+            fail(*node->find("size"), fmt::format("'{}' is no sheet", sheet.size),
+                "write \"A1\" or, in millimetres, \"600x400\"");
         }
         if (sheet.scale.empty()) return;
-        if (const auto scale = parseScale(sheet.scale)) config_.scale = *scale;
-        else fail(*node->find("scale"), fmt::format("'{}' is no scale", sheet.scale), "write for example \"1:50\"");
+        if (const auto scale = parseScale(sheet.scale))
+            config_.scale = *scale;
+        else
+            fail(*node->find("scale"), fmt::format("'{}' is no scale", sheet.scale), "write for example \"1:50\"");
     }
 
     void readEffects() {
         const Node* shading = document_.find("shading");
-        config_.shading = shading ? readChoice(*shading, "shading", "", "[shading]", errors_) : defaultChoice("shading", "flat");
+        config_.shading =
+            shading ? readChoice(*shading, "shading", "", "[shading]", errors_) : defaultChoice("shading", "flat");
         if (const Node* ao = document_.find("ao")) {
             static constexpr std::string_view alsoKnown[] = {"filter"};
             config_.ao = readChoice(*ao, "ao", "", "[ao]", errors_, alsoKnown);
             if (const Node* filter = ao->find("filter")) {
-                if (filter->isArray()) for (const auto& entry : filter->array()) config_.aoFilters.push_back(readChoice(entry, "filter", "", "filter of [ao]", errors_));
-                else config_.aoFilters.push_back(readChoice(*filter, "filter", "", "filter of [ao]", errors_));
+                if (filter->isArray())
+                    for (const auto& entry : filter->array())
+                        config_.aoFilters.push_back(readChoice(entry, "filter", "", "filter of [ao]", errors_));
+                else
+                    config_.aoFilters.push_back(readChoice(*filter, "filter", "", "filter of [ao]", errors_));
             }
         }
         if (const Node* edges = document_.find("edges")) {
-            if (edges->isArray()) for (const auto& layer : edges->array()) config_.edges.push_back(readChoice(layer, "edges", "", "[[edges]]", errors_));
-            else config_.edges.push_back(readChoice(*edges, "edges", "", "[edges]", errors_));
+            if (edges->isArray())
+                for (const auto& layer : edges->array())
+                    config_.edges.push_back(readChoice(layer, "edges", "", "[[edges]]", errors_));
+            else
+                config_.edges.push_back(readChoice(*edges, "edges", "", "[edges]", errors_));
         }
         config_.composite = defaultChoice("composite", "over");
         // What [image] says of the background is the composite's business.
-        applySettings(config_.composite, config_.image.transparent ? "transparent = true"
-                                                                   : fmt::format("background = [{}, {}, {}]", config_.image.background.r, config_.image.background.g, config_.image.background.b));
+        applySettings(config_.composite,
+            config_.image.transparent ? "transparent = true"
+                                      : fmt::format("background = [{}, {}, {}]", config_.image.background.r,
+                                          config_.image.background.g, config_.image.background.b));
     }
 
     void readOutput() {
@@ -181,36 +236,50 @@ private:
         const Node* path = node ? node->find("path") : nullptr;
         if (node) {
             readFields(*node, kOutput, &config_.output.encode, nullptr, "[output]", errors_, alsoKnown);
-            if (config_.output.encode.bits != 8 && config_.output.encode.bits != 16) fail(*node->find("bits"), "'bits' in [output] must be 8 or 16", "");
-            if (path && !path->text()) fail(*path, "'path' in [output] must be text", "");
-            else if (path) config_.output.path = pathIn(*path);
+            if (config_.output.encode.bits != 8 && config_.output.encode.bits != 16)
+                fail(*node->find("bits"), "'bits' in [output] must be 8 or 16", "");
+            if (path && !path->text())
+                fail(*path, "'path' in [output] must be text", "");
+            else if (path)
+                config_.output.path = pathIn(*path);
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
         // Printers are told of a density that somebody chose.
-        if (const Node* image = document_.find("image"); document_.find("sheet") || (image && image->find("dpi"))) config_.output.encode.dpi = config_.image.dpi;
+        if (const Node* image = document_.find("image"); document_.find("sheet") || (image && image->find("dpi")))
+            config_.output.encode.dpi = config_.image.dpi;
         // Without a word about where to: beside the working directory, under the config's name.
         if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
         if (!fileFormat(config_.output.path))
-            fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()), "end the path in .png, .jpg, .tif or .exr");
+            fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()),
+                "end the path in .png, .jpg, .tif or .exr");
     }
 
     void readAovs(const Node& node) {
         config_.output.aovs.clear();
-        if (!node.isArray()) return fail(node, "'aovs' in [output] must be a list of names", "write aovs = [\"beauty\", \"depth\"]");
+        if (!node.isArray())
+            return fail(node, "'aovs' in [output] must be a list of names", "write aovs = [\"beauty\", \"depth\"]");
         std::vector<std::string> names;
         for (const Aov* aov : aov::all) names.emplace_back(aov->name);
         for (const auto& entry : node.array()) {
             const Aov* aov = entry.text() ? findAov(*entry.text()) : nullptr;
-            if (!aov) fail(entry, fmt::format("there is no AOV '{}'", entry.text() ? *entry.text() : "?"), nameRemedy(entry.text() ? *entry.text() : "", names));
-            else if (std::find(config_.output.aovs.begin(), config_.output.aovs.end(), aov) == config_.output.aovs.end()) config_.output.aovs.push_back(aov);
-            if (aov && !available(*aov)) fail(entry, fmt::format("nothing makes the AOV '{}'", aov->name), fmt::format("add a section [{}]", aov == &aov::edges ? "edges" : "ao"));
+            if (!aov)
+                fail(entry, fmt::format("there is no AOV '{}'", entry.text() ? *entry.text() : "?"),
+                    nameRemedy(entry.text() ? *entry.text() : "", names));
+            else if (std::find(config_.output.aovs.begin(), config_.output.aovs.end(), aov)
+                == config_.output.aovs.end())
+                config_.output.aovs.push_back(aov);
+            if (aov && !available(*aov))
+                fail(entry, fmt::format("nothing makes the AOV '{}'", aov->name),
+                    fmt::format("add a section [{}]", aov == &aov::edges ? "edges" : "ao"));
         }
         if (node.array().empty()) fail(node, "'aovs' in [output] is empty", "name at least \"beauty\"");
     }
 
     bool available(const Aov& aov) const {
-        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw || &aov == &aov::ambientOcclusionError) return config_.ao.has_value();
-        if (&aov == &aov::depthTangent) return config_.ao.has_value() || !config_.edges.empty();   // whether they make it, their plan tells
+        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw || &aov == &aov::ambientOcclusionError)
+            return config_.ao.has_value();
+        if (&aov == &aov::depthTangent)
+            return config_.ao.has_value() || !config_.edges.empty();  // whether they make it, their plan tells
         if (&aov == &aov::edges) return !config_.edges.empty();
         return true;
     }
@@ -224,9 +293,11 @@ private:
 }  // namespace
 
 std::vector<ConfigSection> configSections() {
-    return {{"", "top of the file", kHeader}, {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")", kImage},
-            {"[sheet]", "paper to draw on, instead of image.size", kSheet},
-            {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput}};
+    return {{"", "top of the file", kHeader},
+        {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")",
+            kImage},
+        {"[sheet]", "paper to draw on, instead of image.size", kSheet},
+        {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput}};
 }
 
 std::string_view quickstartStyle() {
@@ -253,11 +324,14 @@ color = "#2a2320"
 )";
 }
 
-RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) { return ConfigReader(std::move(document), path, overrides).read(); }
+RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) {
+    return ConfigReader(std::move(document), path, overrides).read();
+}
 
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".obj") return parseRenderConfig(readDocument(path), path, overrides);
     if (!fileExists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
     Node document = parseDocument(quickstartStyle(), "the quickstart's style");

@@ -28,16 +28,16 @@ struct ImageSettings {
 };
 
 struct OutputSettings {
-    std::filesystem::path path;              ///< #### is the frame number
+    std::filesystem::path path;  ///< #### is the frame number
     std::vector<const Aov*> aovs{&aov::beauty};
     EncodeOptions encode;
 };
 
 struct RenderConfig {
-    std::filesystem::path file;              ///< what it was read from
-    std::filesystem::path scene;             ///< scene file, or an OBJ
-    std::string camera;                      ///< empty: the scene's first
-    std::optional<int> subdivide;            ///< level for an OBJ that is the scene itself
+    std::filesystem::path file;    ///< what it was read from
+    std::filesystem::path scene;   ///< scene file, or an OBJ
+    std::string camera;            ///< empty: the scene's first
+    std::optional<int> subdivide;  ///< level for an OBJ that is the scene itself
     Accuracy accuracy = Accuracy::exact;
     ImageSettings image;
     TechniqueChoice geometry, shading, composite;
@@ -48,7 +48,7 @@ struct RenderConfig {
     double scale = 0;                        ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
     std::optional<FrameRange> frames;        ///< narrows the scene's
     OutputSettings output;
-    std::string hash;                        ///< of everything in the config, includes and settings applied
+    std::string hash;  ///< of everything in the config, includes and settings applied
 };
 
 struct ConfigSection {
@@ -60,9 +60,9 @@ std::vector<ConfigSection> configSections();
 
 /// What the command line adds to a config.
 struct ConfigOverrides {
-    std::vector<std::string> settings;       ///< KEY=VALUE
+    std::vector<std::string> settings;  ///< KEY=VALUE
     std::string camera;
-    std::optional<int> subdivide;            ///< draw OBJ files as Catmull-Clark surfaces of this level
+    std::optional<int> subdivide;  ///< draw OBJ files as Catmull-Clark surfaces of this level
 };
 
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).

@@ -7,7 +7,8 @@
 
 namespace limn {
 
-void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds& needs, std::vector<TriMesh>& meshes, std::vector<int>& meshOf) {
+void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds& needs, std::vector<TriMesh>& meshes,
+    std::vector<int>& meshOf) {
     std::vector<TriMesh> cut(scene.instances.size());
     std::vector<char> isOwn(scene.instances.size());
     std::vector<std::size_t> open(scene.instances.size());
@@ -19,7 +20,10 @@ void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds&
         const glm::dvec3 pivot(instance.worldFromMesh * glm::dvec4(mesh->pivot, 1));
         for (std::size_t s = 0; s < scene.sections.size(); ++s) {
             const SectionPlane& section = scene.sections[s];
-            const CutPlane plane{glm::transpose(linear) * section.normal, glm::dot(section.normal, pivot - section.point), static_cast<std::uint32_t>(poly.materialNames.size() + s), static_cast<std::uint32_t>(poly.partNames.size())};
+            const CutPlane plane{glm::transpose(linear) * section.normal,
+                glm::dot(section.normal, pivot - section.point),
+                static_cast<std::uint32_t>(poly.materialNames.size() + s),
+                static_cast<std::uint32_t>(poly.partNames.size())};
             if (!isCut(*mesh, plane)) continue;
             CutMesh done = cutMesh(*mesh, plane, needs);
             open[i] += done.openOutlines;
@@ -30,7 +34,9 @@ void cutOpen(const LoadedScene& loaded, const DrawScene& scene, const MeshNeeds&
         if (isOwn[i] && !needs.unified) numberByLastVertex(cut[i]);
     });
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        if (open[i] > 0) log::warning("object '{}' is not closed where a section cuts it: {} outline{} without a cut face", scene.instances[i].name, open[i], open[i] == 1 ? "" : "s");
+        if (open[i] > 0)
+            log::warning("object '{}' is not closed where a section cuts it: {} outline{} without a cut face",
+                scene.instances[i].name, open[i], open[i] == 1 ? "" : "s");
         if (!isOwn[i]) continue;
         meshOf[i] = static_cast<int>(meshes.size());
         meshes.push_back(std::move(cut[i]));

@@ -9,34 +9,41 @@ namespace {
 
 /// One instance as one frame's camera sees it.
 struct Viewer {
-    glm::dmat4 viewFromMesh;        ///< to normalized view space
-    double worldScale;              ///< longest stretch of the instance
+    glm::dmat4 viewFromMesh;  ///< to normalized view space
+    double worldScale;        ///< longest stretch of the instance
     bool orthographic;
-    double pixelsPerUnit;           ///< at unit depth; orthographic: anywhere
-    glm::dvec2 low, high;           ///< of the picture, at unit depth
+    double pixelsPerUnit;  ///< at unit depth; orthographic: anywhere
+    glm::dvec2 low, high;  ///< of the picture, at unit depth
 
     /// Pixels that an edge spans however it is turned, or 0 where it cannot be seen.
     double pixels(const glm::dvec3& a, const glm::dvec3& b) const {
         const glm::dvec3 p(viewFromMesh * glm::dvec4(a, 1)), q(viewFromMesh * glm::dvec4(b, 1));
         const double length = glm::distance(p, q);
-        // The faces on the edge reach about as far as the edge is long: only if all of that is out of sight may it stay coarse.
+        // The faces on the edge reach about as far as the edge is long: only if all of that is out of sight may it stay
+        // coarse.
         const double room = 2 * length;
         const glm::dvec3 middle = (p + q) * 0.5;
         if (orthographic) {
-            const bool outside = middle.x < low.x - room || middle.x > high.x + room || middle.y < low.y - room || middle.y > high.y + room;
+            const bool outside = middle.x < low.x - room || middle.x > high.x + room || middle.y < low.y - room
+                || middle.y > high.y + room;
             return outside ? 0 : length * pixelsPerUnit;
         }
         const double depth = -middle.z, reach = depth + room;
         if (reach <= 0) return 0;
-        if (middle.x < low.x * reach - room || middle.x > high.x * reach + room || middle.y < low.y * reach - room || middle.y > high.y * reach + room) return 0;
-        // What is in the picture at that distance is no nearer along the axis than this, whatever lies beside the camera or behind it.
+        if (middle.x < low.x * reach - room || middle.x > high.x * reach + room || middle.y < low.y * reach - room
+            || middle.y > high.y * reach + room)
+            return 0;
+        // What is in the picture at that distance is no nearer along the axis than this, whatever lies beside the
+        // camera or behind it.
         const double corner = 1 / std::sqrt(1 + std::max(glm::dot(low, low), glm::dot(high, high)));
-        const double nearest = std::max({std::min(-p.z, -q.z), (glm::length(middle) - length / 2) * corner, 0.05 * length});
+        const double nearest =
+            std::max({std::min(-p.z, -q.z), (glm::length(middle) - length / 2) * corner, 0.05 * length});
         return length * pixelsPerUnit / nearest;
     }
     /// The most pixels that a unit of a mesh within a sphere can span.
     double pixelsPerUnitOf(const glm::dvec3& centre, double radius) const {
-        const double stretch = std::max({glm::length(viewFromMesh[0]), glm::length(viewFromMesh[1]), glm::length(viewFromMesh[2])});
+        const double stretch =
+            std::max({glm::length(viewFromMesh[0]), glm::length(viewFromMesh[1]), glm::length(viewFromMesh[2])});
         const double distance = glm::length(glm::dvec3(viewFromMesh * glm::dvec4(centre, 1))) - radius * stretch;
         return stretch * pixelsPerUnit / (orthographic ? 1 : std::max(distance, 0.05 * radius * stretch));
     }
@@ -44,8 +51,10 @@ struct Viewer {
 };
 
 /// Appends how the cameras of all declared frames see an instance, without repeating what is there.
-void addViewers(const LoadedScene& loaded, std::size_t number, const RenderConfig& config, std::vector<Viewer>& viewers) {
-    const FrameRange frames = loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
+void addViewers(
+    const LoadedScene& loaded, std::size_t number, const RenderConfig& config, std::vector<Viewer>& viewers) {
+    const FrameRange frames =
+        loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         const DrawScene scene = resolveFrame(loaded, frameRequest(config, frame));
         const View view = makeView(scene.camera, scene.info, {.imageSize = config.image.size});
@@ -54,7 +63,8 @@ void addViewers(const LoadedScene& loaded, std::size_t number, const RenderConfi
         glm::dmat4 toView(view.viewFromRelative * glm::dmat3(instance.worldFromMesh));
         toView[3] = glm::dvec4(view.toView(glm::dvec3(instance.worldFromMesh[3])), 1);
         const glm::dmat3 linear(instance.worldFromMesh);
-        const Viewer viewer{toView, std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}), view.orthographic, 1 / view.rayScale.x, view.rayOffset, size * view.rayScale + view.rayOffset};
+        const Viewer viewer{toView, std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}),
+            view.orthographic, 1 / view.rayScale.x, view.rayOffset, size * view.rayScale + view.rayOffset};
         if (std::find(viewers.begin(), viewers.end(), viewer) == viewers.end()) viewers.push_back(viewer);
     }
 }
@@ -71,19 +81,26 @@ int edgeClass(const LoadedScene& loaded, std::size_t instance, const RenderConfi
     std::vector<Viewer> viewers;
     addViewers(loaded, instance, config, viewers);
     double size = 0;
-    for (const auto& viewer : viewers) size = std::max(size, wanted->isPixels ? viewer.pixelsPerUnitOf(bounds.centre(), bounds.diagonal() / 2) : viewer.worldScale);
+    for (const auto& viewer : viewers)
+        size = std::max(size,
+            wanted->isPixels ? viewer.pixelsPerUnitOf(bounds.centre(), bounds.diagonal() / 2) : viewer.worldScale);
     constexpr int kClassesPerOctave = 2;
     return static_cast<int>(std::floor(kClassesPerOctave * std::log2(std::clamp(size, 1e-300, 1e300))));
 }
 
-std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(const LoadedScene& loaded, std::span<const std::size_t> instances, const RenderConfig& config) {
-    const auto wanted = loaded.scene.meshes[meshIndex(loaded.scene, loaded.scene.instances[instances.front()].base.mesh)].subdivision.wantedEdge();
+std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(
+    const LoadedScene& loaded, std::span<const std::size_t> instances, const RenderConfig& config) {
+    const auto wanted =
+        loaded.scene.meshes[meshIndex(loaded.scene, loaded.scene.instances[instances.front()].base.mesh)]
+            .subdivision.wantedEdge();
     if (!wanted) return {};
     auto viewers = std::make_shared<std::vector<Viewer>>();
     for (const std::size_t instance : instances) addViewers(loaded, instance, config, *viewers);
     return [viewers, wanted = *wanted](const glm::dvec3& a, const glm::dvec3& b) {
         double segments = 1;
-        for (const auto& viewer : *viewers) segments = std::max(segments, (wanted.isPixels ? viewer.pixels(a, b) : glm::distance(a, b) * viewer.worldScale) / wanted.amount);
+        for (const auto& viewer : *viewers)
+            segments = std::max(segments,
+                (wanted.isPixels ? viewer.pixels(a, b) : glm::distance(a, b) * viewer.worldScale) / wanted.amount);
         return static_cast<int>(std::lround(std::min(segments, 1e6)));
     };
 }

@@ -23,8 +23,9 @@ private:
     std::vector<File> files_;
 };
 
-/// Writes a frame: EXR holds everything at `path`; other formats hold the beauty there, and AOVs go beside it as NAME.AOV.EXT (depth and
-/// other data as EXR). Returns the files written, in order.
-std::vector<std::filesystem::path> writeFrame(const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options);
+/// Writes a frame: EXR holds everything at `path`; other formats hold the beauty there, and AOVs go beside it as
+/// NAME.AOV.EXT (depth and other data as EXR). Returns the files written, in order.
+std::vector<std::filesystem::path> writeFrame(
+    const RenderedFrame& frame, const std::filesystem::path& path, const EncodeOptions& options);
 
 }  // namespace limn

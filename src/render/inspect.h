@@ -14,8 +14,8 @@ struct MeshFacts {
     std::size_t creases = 0, infiniteCreases = 0, corners = 0, holes = 0;
     Bounds bounds;
     TopologyReport topology;
-    std::vector<MeshWarning> warnings;         ///< in the order of lines; those of repairs have no line
-    std::string subdivision;                   ///< what Catmull-Clark at level 2 would do
+    std::vector<MeshWarning> warnings;  ///< in the order of lines; those of repairs have no line
+    std::string subdivision;            ///< what Catmull-Clark at level 2 would do
 };
 
 /// Reads, repairs and looks. Throws what reading throws.

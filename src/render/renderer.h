@@ -2,9 +2,9 @@
 #pragma once
 
 #include "frame/executor.h"
-#include "render/loader.h"
 #include "reference/ray_scene.h"
 #include "render/frame_plans.h"
+#include "render/loader.h"
 #include "render/scene_meshes.h"
 
 #include <functional>
@@ -16,10 +16,12 @@ namespace limn {
 struct RenderedFrame;
 
 struct RenderOptions {
-    PixelRect crop;                 ///< output pixels from the *upper* left; empty: everything
+    PixelRect crop;  ///< output pixels from the *upper* left; empty: everything
     bool measure = false;
-    int guard = 0;                  ///< draw at least so many pixels around the picture, and keep them in the images; even. Not of tiles
-    /// Takes a picture band by band, from the top, as the layers' images, which are then forgotten. Without it the frame holds them all.
+    int guard =
+        0;  ///< draw at least so many pixels around the picture, and keep them in the images; even. Not of tiles
+    /// Takes a picture band by band, from the top, as the layers' images, which are then forgotten. Without it the
+    /// frame holds them all.
     std::function<void(const RenderedFrame&)> onBand;
 };
 
@@ -30,12 +32,12 @@ struct PartTime {
 };
 
 struct RenderedFrame {
-    std::vector<Layer> layers;              ///< one per AOV of the config, in its order
+    std::vector<Layer> layers;  ///< one per AOV of the config, in its order
     Metadata metadata;
     std::vector<PartTime> times;
-    bool opaque = false;                    ///< the background covers everything
-    std::uint64_t nonFinite = 0;            ///< values that are NaN or infinite, but for depth's background
-    View view;                              ///< of the first sample
+    bool opaque = false;          ///< the background covers everything
+    std::uint64_t nonFinite = 0;  ///< values that are NaN or infinite, but for depth's background
+    View view;                    ///< of the first sample
 };
 
 /// GPU milliseconds of a pass, over all samples of a frame.
@@ -52,7 +54,8 @@ public:
     /// Meshes of the next frame that are under way: it takes them instead of making its own, if they are what it needs.
     void await(std::future<SceneMeshes> meshes) { awaited_ = std::move(meshes); }
 
-    RenderedFrame render(const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
+    RenderedFrame render(
+        const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
 
     /// With RenderOptions::measure: of each pass of the last frame's averaged plan, in its order.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
@@ -63,8 +66,10 @@ public:
 private:
     /// Compiles the programs of all samples of a frame.
     void prepare(const FramePlan& frame, View view);
-    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings (cameras, transforms, lights).
-    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times);
+    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings
+    /// (cameras, transforms, lights).
+    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene,
+        const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times);
 
     /// What all tiles of a frame share.
     struct Frame {
@@ -73,15 +78,16 @@ private:
         const SceneFacts* facts;
         int number, largest;
     };
-    std::vector<Image> drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect, const RenderOptions& options, RenderedFrame& result);
+    std::vector<Image> drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect,
+        const RenderOptions& options, RenderedFrame& result);
 
     gl::Device device_;
     ShaderLibrary shaders_;
     Executor executor_;
     std::vector<PassTime> passTimes_;
     std::unique_ptr<GpuScene> gpuScene_;
-    std::unique_ptr<RayScene> rayScene_;     ///< only where the plan traces rays
-    SceneKey key_;                           ///< of gpuScene_ and rayScene_
+    std::unique_ptr<RayScene> rayScene_;  ///< only where the plan traces rays
+    SceneKey key_;                        ///< of gpuScene_ and rayScene_
     std::future<SceneMeshes> awaited_;
 };
 

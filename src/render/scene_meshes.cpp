@@ -16,7 +16,8 @@ namespace limn {
 
 SceneKey sceneKey(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneData needs) {
     SceneKey key{loaded.number, needs, {}, {}, scene.sections};
-    const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
+    const bool fitted = std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(),
+        [](const auto& mesh) { return mesh.subdivision.wantedEdge().has_value(); });
     if (fitted) key.fittedTo = fmt::format("{} {}x{}", config.camera, config.image.size.x, config.image.size.y);
     if (has(needs, SceneData::rays) || !scene.sections.empty())
         for (const auto& instance : scene.instances) key.places.push_back(instance.worldFromMesh);
@@ -26,11 +27,16 @@ SceneKey sceneKey(const RenderConfig& config, const LoadedScene& loaded, const D
 SceneMeshes buildMeshes(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene, SceneKey key) {
     const auto begin = std::chrono::steady_clock::now();
     SceneMeshes result;
-    // Instances share meshes. Where edges are cut to look smooth to the camera only those that look about equally large to it do.
-    struct Build { std::size_t mesh; std::vector<std::size_t> instances; };
+    // Instances share meshes. Where edges are cut to look smooth to the camera only those that look about equally large
+    // to it do.
+    struct Build {
+        std::size_t mesh;
+        std::vector<std::size_t> instances;
+    };
     std::vector<Build> builds;
     std::vector<int> classes(scene.instances.size());
-    tbb::parallel_for(std::size_t{0}, scene.instances.size(), [&](std::size_t i) { classes[i] = edgeClass(loaded, i, config); });
+    tbb::parallel_for(
+        std::size_t{0}, scene.instances.size(), [&](std::size_t i) { classes[i] = edgeClass(loaded, i, config); });
     std::map<std::pair<std::size_t, int>, std::size_t> known;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(scene.instances[i].mesh);
@@ -39,7 +45,8 @@ SceneMeshes buildMeshes(const RenderConfig& config, const LoadedScene& loaded, c
         builds[at->second].instances.push_back(i);
         result.meshOf.push_back(static_cast<int>(at->second));
     }
-    const MeshNeeds needs{has(key.needs, SceneData::normals), has(key.needs, SceneData::uvs), has(key.needs, SceneData::unifiedVertices), has(key.needs, SceneData::colors)};
+    const MeshNeeds needs{has(key.needs, SceneData::normals), has(key.needs, SceneData::uvs),
+        has(key.needs, SceneData::unifiedVertices), has(key.needs, SceneData::colors)};
     result.meshes.resize(builds.size());
     tbb::parallel_for(std::size_t{0}, builds.size(), [&](std::size_t i) {
         const PolyMesh& poly = loaded.meshes[builds[i].mesh].poly;
@@ -50,7 +57,8 @@ SceneMeshes buildMeshes(const RenderConfig& config, const LoadedScene& loaded, c
     });
     if (!scene.sections.empty()) cutOpen(loaded, scene, needs, result.meshes, result.meshOf);
     result.key = std::move(key);
-    result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    result.milliseconds = std::chrono::duration < double;
+    std::milli > (std::chrono::steady_clock::now() - begin).count();
     return result;
 }
 

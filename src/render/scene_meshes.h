@@ -7,10 +7,10 @@ namespace limn {
 
 /// What decides about what is brought to the GPU, and to rays: while it stays the same, so does that.
 struct SceneKey {
-    std::uint64_t scene = 0;                ///< LoadedScene::number
+    std::uint64_t scene = 0;  ///< LoadedScene::number
     SceneData needs = SceneData::none;
-    std::string fittedTo;                   ///< camera and picture that edges are cut for; empty when none are
-    std::vector<glm::dmat4> places;         ///< where instances stand, if they are cut or hit by rays
+    std::string fittedTo;            ///< camera and picture that edges are cut for; empty when none are
+    std::vector<glm::dmat4> places;  ///< where instances stand, if they are cut or hit by rays
     std::vector<SectionPlane> sections;
     bool operator==(const SceneKey&) const = default;
 };
@@ -19,8 +19,8 @@ SceneKey sceneKey(const RenderConfig& config, const LoadedScene& loaded, const D
 struct SceneMeshes {
     SceneKey key;
     std::vector<TriMesh> meshes;
-    std::vector<int> meshOf;                ///< of each instance: which of them
-    double milliseconds = 0;                ///< that it took to make them
+    std::vector<int> meshOf;  ///< of each instance: which of them
+    double milliseconds = 0;  ///< that it took to make them
 };
 
 /// In parallel. Needs no GL.

@@ -7,8 +7,9 @@
 
 namespace limn {
 
-/// Adds to the mesh's tags. The file is TOML: `creases = [[vertex, vertex, sharpness], ...]`, `corners = [[vertex, sharpness], ...]`, with
-/// vertices counted from 0 and 10 for infinitely sharp. Throws Errors (badData) for what is not in the mesh, and those of reading.
+/// Adds to the mesh's tags. The file is TOML: `creases = [[vertex, vertex, sharpness], ...]`, `corners = [[vertex,
+/// sharpness], ...]`, with vertices counted from 0 and 10 for infinitely sharp. Throws Errors (badData) for what is not
+/// in the mesh, and those of reading.
 void readCreases(const std::filesystem::path& path, PolyMesh& mesh);
 
 }  // namespace limn

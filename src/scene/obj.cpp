@@ -31,17 +31,22 @@ struct StateChange {
 /// What one piece of the file holds; indices that count from its end are not yet resolved.
 struct Chunk {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::vec3> colors;               ///< of the first positions, as the file has them; the others have none
+    std::vector<glm::vec3> colors;  ///< of the first positions, as the file has them; the others have none
     std::vector<glm::vec2> uvs;
     std::vector<glm::vec3> normals;
-    struct Corner { std::int64_t position; std::int32_t uv, normal; };
-    std::vector<Corner> corners;                 ///< absolute indices from 0, or relative to the chunk's first element where listed below
+    struct Corner {
+        std::int64_t position;
+        std::int32_t uv, normal;
+    };
+    std::vector<Corner>
+        corners;  ///< absolute indices from 0, or relative to the chunk's first element where listed below
     std::vector<std::uint32_t> faceEnd;
     std::vector<int> faceLine;
-    std::vector<std::uint32_t> relativePosition, relativeUv, relativeNormal;  ///< corners whose index is relative to this chunk
+    std::vector<std::uint32_t> relativePosition, relativeUv,
+        relativeNormal;  ///< corners whose index is relative to this chunk
     std::vector<StateChange> changes;
     std::vector<std::string> libraries;
-    std::vector<std::pair<std::string, int>> tags;   ///< what follows `t`, and its line
+    std::vector<std::pair<std::string, int>> tags;  ///< what follows `t`, and its line
     WarningList warnings;
     int lines = 0;
 };
@@ -54,24 +59,29 @@ constexpr std::int32_t kBadIndex = std::numeric_limits<std::int32_t>::min();
 bool readCorner(Cursor& cursor, Chunk& chunk) {
     cursor.skipBlanks();
     const auto index = static_cast<std::uint32_t>(chunk.corners.size());
-    const auto resolve = [&](std::int64_t raw, std::size_t count, std::vector<std::uint32_t>& relative) -> std::int64_t {
+    const auto resolve = [&](std::int64_t raw, std::size_t count,
+                             std::vector<std::uint32_t>& relative) -> std::int64_t {
         if (raw > 0) return raw - 1;
         relative.push_back(index);
         return static_cast<std::int64_t>(count) + raw;
     };
-    const auto narrow = [](std::int64_t value) { 
+    const auto narrow = [](std::int64_t value) {
         constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
         return value > -most && value < most ? static_cast<std::int32_t>(value) : kBadIndex;
     };
     std::int64_t raw = 0;
     if (!cursor.integer(raw) || raw == 0) return false;
-    Chunk::Corner corner{resolve(raw, chunk.positions.size(), chunk.relativePosition), PolyMesh::kNone, PolyMesh::kNone};
+    Chunk::Corner corner{
+        resolve(raw, chunk.positions.size(), chunk.relativePosition), PolyMesh::kNone, PolyMesh::kNone};
     if (cursor.at < cursor.end && *cursor.at == '/') {
         ++cursor.at;
-        if (cursor.integer(raw)) corner.uv = raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.uvs.size(), chunk.relativeUv));
+        if (cursor.integer(raw))
+            corner.uv = raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.uvs.size(), chunk.relativeUv));
         if (cursor.at < cursor.end && *cursor.at == '/') {
             ++cursor.at;
-            if (cursor.integer(raw)) corner.normal = raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.normals.size(), chunk.relativeNormal));
+            if (cursor.integer(raw))
+                corner.normal =
+                    raw == 0 ? PolyMesh::kNone : narrow(resolve(raw, chunk.normals.size(), chunk.relativeNormal));
         }
     }
     if (cursor.at < cursor.end && !isBlank(*cursor.at)) return false;
@@ -81,11 +91,14 @@ bool readCorner(Cursor& cursor, Chunk& chunk) {
 
 void readFace(Cursor cursor, Chunk& chunk, int line) {
     const std::size_t first = chunk.corners.size();
-    const std::size_t relative[] = {chunk.relativePosition.size(), chunk.relativeUv.size(), chunk.relativeNormal.size()};
+    const std::size_t relative[] = {
+        chunk.relativePosition.size(), chunk.relativeUv.size(), chunk.relativeNormal.size()};
     while (!cursor.atEnd()) {
         if (!readCorner(cursor, chunk)) {
             chunk.corners.resize(first);
-            chunk.relativePosition.resize(relative[0]), chunk.relativeUv.resize(relative[1]), chunk.relativeNormal.resize(relative[2]);
+            chunk.relativePosition.resize(relative[0]);
+            chunk.relativeUv.resize(relative[1]);
+            chunk.relativeNormal.resize(relative[2]);
             chunk.warnings.add("face with a corner that is no index; dropped", line);
             return;
         }
@@ -100,14 +113,15 @@ void readColor(Cursor& cursor, Chunk& chunk, int line) {
     int count = 0;
     while (count < 3 && cursor.number(rgb[count])) ++count;
     if (count < 3) {
-        if (count != 1 || !cursor.atEnd()) chunk.warnings.add("vertex with something that is neither weight nor colour; drawn without", line);
+        if (count != 1 || !cursor.atEnd())
+            chunk.warnings.add("vertex with something that is neither weight nor colour; drawn without", line);
         return;
     }
     glm::vec3 color(rgb[0], rgb[1], rgb[2]);
     for (int k = 0; k < 3; ++k) {
         if (color[k] >= 0 && color[k] <= 255) continue;
         chunk.warnings.add("vertex colour below 0 or above 255; clamped", line);
-        color[k] = color[k] > 255 ? 255.0f : 0.0f;   // also what is no number
+        color[k] = color[k] > 255 ? 255.0f : 0.0f;  // also what is no number
     }
     chunk.colors.resize(chunk.positions.size() - 1, kNoColor);
     chunk.colors.push_back(color);
@@ -125,14 +139,17 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
             if (i >= required && cursor.atEnd()) break;
             if (!cursor.number(out[i])) {
                 chunk.warnings.add(fmt::format("'{}' line with something that is no number", keyword), line);
-                // The element must still exist, or every later index would point one place off; unusable values drop its faces below.
+                // The element must still exist, or every later index would point one place off; unusable values drop
+                // its faces below.
                 for (int j = i; j < required; ++j) out[j] = std::numeric_limits<double>::quiet_NaN();
                 break;
             }
         }
     };
     double n[4] = {};
-    const auto change = [&](StateChange::Kind kind, std::string name, std::uint32_t group) { chunk.changes.push_back({kind, chunk.faceEnd.size(), std::move(name), group}); };
+    const auto change = [&](StateChange::Kind kind, std::string name, std::uint32_t group) {
+        chunk.changes.push_back({kind, chunk.faceEnd.size(), std::move(name), group});
+    };
     if (keyword == "v") {
         numbers(n, 3, 0);
         chunk.positions.emplace_back(n[0], n[1], n[2]);
@@ -164,7 +181,8 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
         chunk.warnings.add("line or point element; not drawn", line);
     } else if (keyword == "t") {
         chunk.tags.emplace_back(cursor.rest(), line);
-    } else if (keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod" || keyword == "shadow_obj" || keyword == "trace_obj") {
+    } else if (keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod"
+        || keyword == "shadow_obj" || keyword == "trace_obj") {
         // Known statements that say nothing about a polygon picture.
     } else {
         chunk.warnings.add("statement that OBJ does not know; skipped", line);
@@ -179,7 +197,10 @@ std::vector<std::string_view> split(std::string_view text, std::size_t count) {
         std::size_t end = text.size() <= target + target / 2 ? text.size() : target;
         while (end < text.size()) {
             end = text.find('\n', end);
-            if (end == std::string_view::npos) { end = text.size(); break; }
+            if (end == std::string_view::npos) {
+                end = text.size();
+                break;
+            }
             const char before = text[end - 1] == '\r' && end >= 2 ? text[end - 2] : text[end - 1];
             ++end;
             if (before != '\\') break;
@@ -204,8 +225,10 @@ struct NameTable {
 
 template <class T, class U>
 void append(std::vector<T>& to, std::vector<U>& from) {
-    if (to.empty() && std::is_same_v<T, U>) to = std::move(from);
-    else to.insert(to.end(), from.begin(), from.end());
+    if (to.empty() && std::is_same_v<T, U>)
+        to = std::move(from);
+    else
+        to.insert(to.end(), from.begin(), from.end());
     from = {};
 }
 
@@ -215,17 +238,25 @@ public:
 
     void merge(std::vector<Chunk>& chunks, WarningList& warnings) {
         std::size_t corners = 0, faceCount = 0;
-        for (const auto& chunk : chunks) corners += chunk.corners.size(), faceCount += chunk.faceEnd.size();
+        for (const auto& chunk : chunks) {
+            corners += chunk.corners.size();
+            faceCount += chunk.faceEnd.size();
+        }
         std::int64_t positions = 0;
         std::int32_t uvs = 0, normals = 0;
         for (auto& chunk : chunks) {
             for (const auto corner : chunk.relativePosition) chunk.corners[corner].position += positions;
-            for (const auto corner : chunk.relativeUv) if (chunk.corners[corner].uv != kBadIndex) chunk.corners[corner].uv += uvs;
-            for (const auto corner : chunk.relativeNormal) if (chunk.corners[corner].normal != kBadIndex) chunk.corners[corner].normal += normals;
+            for (const auto corner : chunk.relativeUv)
+                if (chunk.corners[corner].uv != kBadIndex) chunk.corners[corner].uv += uvs;
+            for (const auto corner : chunk.relativeNormal)
+                if (chunk.corners[corner].normal != kBadIndex) chunk.corners[corner].normal += normals;
             positions += static_cast<std::int64_t>(chunk.positions.size());
             uvs += static_cast<std::int32_t>(chunk.uvs.size());
             normals += static_cast<std::int32_t>(chunk.normals.size());
-            if (!chunk.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), kNoColor), append(mesh_.colors, chunk.colors);
+            if (!chunk.colors.empty()) {
+                mesh_.colors.resize(mesh_.positions.size(), kNoColor);
+                append(mesh_.colors, chunk.colors);
+            }
             append(mesh_.positions, chunk.positions);
             append(mesh_.uvs, chunk.uvs);
             append(mesh_.normals, chunk.normals);
@@ -235,17 +266,21 @@ public:
         usable_.resize(mesh_.positions.size());
         tbb::parallel_for(std::size_t{0}, mesh_.positions.size(), [&](std::size_t i) {
             const auto& p = mesh_.positions[i];
-            usable_[i] = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
+            usable_[i] = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
+                && std::abs(p.z) <= kLargestCoordinate;
         });
         mesh_.faceStart.reserve(faceCount + 1);
         mesh_.cornerPosition.reserve(corners);
         mesh_.cornerUv.reserve(mesh_.uvs.empty() ? 0 : corners);
         mesh_.cornerNormal.reserve(mesh_.normals.empty() ? 0 : corners);
-        mesh_.faceMaterial.reserve(faceCount), mesh_.facePart.reserve(faceCount), mesh_.faceSmoothing.reserve(faceCount);
+        mesh_.faceMaterial.reserve(faceCount);
+        mesh_.facePart.reserve(faceCount);
+        mesh_.faceSmoothing.reserve(faceCount);
         int lineBase = 0;
         for (auto& chunk : chunks) {
             addFaces(chunk, lineBase, warnings);
-            for (const auto& [kind, warning] : chunk.warnings.kinds) warnings.add(kind, lineBase + warning.firstLine, warning.count);
+            for (const auto& [kind, warning] : chunk.warnings.kinds)
+                warnings.add(kind, lineBase + warning.firstLine, warning.count);
             lineBase += chunk.lines;
             chunk = {};
         }
@@ -260,13 +295,22 @@ private:
     void finishColors(WarningList& warnings) {
         if (mesh_.colors.empty()) return;
         mesh_.colors.resize(mesh_.positions.size(), kNoColor);
-        const bool above = std::any_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return std::max({c.r, c.g, c.b}) > 1; });
-        const bool bytes = above && std::all_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) { return c == glm::round(c); });
-        if (above) warnings.add(bytes ? "vertex colours are whole numbers above 1; read as 0 to 255" : "vertex colours go above 1; clamped", 0);
+        const bool above = std::any_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) {
+            return std::max({c.r, c.g, c.b}) > 1;
+        });
+        const bool bytes = above && std::all_of(mesh_.colors.begin(), mesh_.colors.end(), [](const glm::vec3& c) {
+            return c == glm::round(c);
+        });
+        if (above)
+            warnings.add(bytes ? "vertex colours are whole numbers above 1; read as 0 to 255"
+                               : "vertex colours go above 1; clamped",
+                0);
         tbb::parallel_for(std::size_t{0}, mesh_.colors.size(), [&](std::size_t i) {
             glm::vec3& color = mesh_.colors[i];
-            if (color == kNoColor) color = glm::vec3(1);
-            else for (int k = 0; k < 3; ++k) color[k] = srgbToLinear(bytes ? color[k] / 255 : std::min(color[k], 1.0f));
+            if (color == kNoColor)
+                color = glm::vec3(1);
+            else
+                for (int k = 0; k < 3; ++k) color[k] = srgbToLinear(bytes ? color[k] / 255 : std::min(color[k], 1.0f));
         });
     }
 
@@ -274,8 +318,10 @@ private:
         for (const auto& [text, line] : chunk.tags) tags_.emplace_back(text, lineBase + line);
         std::size_t change = 0, start = 0;
         for (std::size_t face = 0; face < chunk.faceEnd.size(); ++face) {
-            for (; change < chunk.changes.size() && chunk.changes[change].face <= face; ++change) applyChange(chunk.changes[change]);
-            addFace({chunk.corners.data() + start, chunk.faceEnd[face] - start}, lineBase + chunk.faceLine[face], warnings);
+            for (; change < chunk.changes.size() && chunk.changes[change].face <= face; ++change)
+                applyChange(chunk.changes[change]);
+            addFace(
+                {chunk.corners.data() + start, chunk.faceEnd[face] - start}, lineBase + chunk.faceLine[face], warnings);
             start = chunk.faceEnd[face];
         }
         for (; change < chunk.changes.size(); ++change) applyChange(chunk.changes[change]);
@@ -303,7 +349,8 @@ private:
                 if (outOfRange++ == 0) firstOutOfRange = line;
                 return warnings.add("face refers to a vertex that does not exist; dropped", line);
             }
-            if (!usable_[static_cast<std::size_t>(corner.position)]) return warnings.add("face with a vertex that is no finite place; dropped", line);
+            if (!usable_[static_cast<std::size_t>(corner.position)])
+                return warnings.add("face with a vertex that is no finite place; dropped", line);
         }
         const std::size_t first = mesh_.cornerPosition.size();
         for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -313,8 +360,10 @@ private:
                 continue;
             }
             mesh_.cornerPosition.push_back(static_cast<std::uint32_t>(corner.position));
-            if (!mesh_.uvs.empty()) mesh_.cornerUv.push_back(checked(corner.uv, mesh_.uvs.size(), "texture coordinate", line, warnings));
-            if (!mesh_.normals.empty()) mesh_.cornerNormal.push_back(checked(corner.normal, mesh_.normals.size(), "normal", line, warnings));
+            if (!mesh_.uvs.empty())
+                mesh_.cornerUv.push_back(checked(corner.uv, mesh_.uvs.size(), "texture coordinate", line, warnings));
+            if (!mesh_.normals.empty())
+                mesh_.cornerNormal.push_back(checked(corner.normal, mesh_.normals.size(), "normal", line, warnings));
         }
         if (mesh_.cornerPosition.size() - first < 3) {
             mesh_.cornerPosition.resize(first);
@@ -330,7 +379,8 @@ private:
         mesh_.faceSmoothing.push_back(smoothing_);
     }
 
-    static std::int32_t checked(std::int32_t index, std::size_t count, const char* what, int line, WarningList& warnings) {
+    static std::int32_t checked(
+        std::int32_t index, std::size_t count, const char* what, int line, WarningList& warnings) {
         if (index == PolyMesh::kNone) return index;
         if (index >= 0 && static_cast<std::size_t>(index) < count) return index;
         warnings.add(fmt::format("face refers to a {} that does not exist; done without", what), line);
@@ -344,8 +394,10 @@ private:
         std::int64_t counts[3] = {};
         cursor.skipBlanks();
         for (int i = 0; i < 3; ++i) {
-            if (!cursor.integer(counts[i]) || counts[i] < 0 || counts[i] > static_cast<std::int64_t>(text.size())) return warnings.add("subdivision tag that cannot be read; skipped", line);
-            if (i < 2 && (cursor.at == cursor.end || *cursor.at++ != '/')) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            if (!cursor.integer(counts[i]) || counts[i] < 0 || counts[i] > static_cast<std::int64_t>(text.size()))
+                return warnings.add("subdivision tag that cannot be read; skipped", line);
+            if (i < 2 && (cursor.at == cursor.end || *cursor.at++ != '/'))
+                return warnings.add("subdivision tag that cannot be read; skipped", line);
         }
         std::vector<std::int64_t> integers;
         std::vector<float> floats;
@@ -357,9 +409,14 @@ private:
         for (std::int64_t i = 0; i < counts[1]; ++i)
             if (double value; cursor.number(value)) floats.push_back(static_cast<float>(value));
         if (counts[2] > 0) word = cursor.word();
-        const bool complete = static_cast<std::int64_t>(integers.size()) == counts[0] && static_cast<std::int64_t>(floats.size()) == counts[1];
-        const bool hasFloat = std::find_if(floats.begin(), floats.end(), [](float f) { return !(f >= 0); }) == floats.end() && !floats.empty();
-        const auto isVertex = [&](std::int64_t v) { return v >= 0 && static_cast<std::size_t>(v) < mesh_.positions.size(); };
+        const bool complete = static_cast<std::int64_t>(integers.size()) == counts[0]
+            && static_cast<std::int64_t>(floats.size()) == counts[1];
+        const bool hasFloat =
+            std::find_if(floats.begin(), floats.end(), [](float f) { return !(f >= 0); }) == floats.end()
+            && !floats.empty();
+        const auto isVertex = [&](std::int64_t v) {
+            return v >= 0 && static_cast<std::size_t>(v) < mesh_.positions.size();
+        };
         const auto choice = [&](int most) -> std::optional<int> {
             if (integers.size() == 1 && integers[0] >= 0 && integers[0] <= most) return static_cast<int>(integers[0]);
             warnings.add("subdivision tag that cannot be read; skipped", line);
@@ -368,22 +425,34 @@ private:
         SubdivisionTags& tags = mesh_.tags;
         if (!complete) return warnings.add("subdivision tag that cannot be read; skipped", line);
         if (name == "crease") {
-            if (integers.size() < 2 || !hasFloat) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            if (integers.size() < 2 || !hasFloat)
+                return warnings.add("subdivision tag that cannot be read; skipped", line);
             for (std::size_t i = 0; i + 1 < integers.size(); ++i) {
-                if (!isVertex(integers[i]) || !isVertex(integers[i + 1])) warnings.add("crease or corner at a vertex that does not exist; skipped", line);
-                else tags.creases.push_back({static_cast<std::uint32_t>(integers[i]), static_cast<std::uint32_t>(integers[i + 1]), floats[std::min(i, floats.size() - 1)]});
+                if (!isVertex(integers[i]) || !isVertex(integers[i + 1]))
+                    warnings.add("crease or corner at a vertex that does not exist; skipped", line);
+                else
+                    tags.creases.push_back({static_cast<std::uint32_t>(integers[i]),
+                        static_cast<std::uint32_t>(integers[i + 1]), floats[std::min(i, floats.size() - 1)]});
             }
         } else if (name == "corner") {
-            if (integers.empty() || !hasFloat) return warnings.add("subdivision tag that cannot be read; skipped", line);
+            if (integers.empty() || !hasFloat)
+                return warnings.add("subdivision tag that cannot be read; skipped", line);
             for (std::size_t i = 0; i < integers.size(); ++i) {
-                if (!isVertex(integers[i])) warnings.add("crease or corner at a vertex that does not exist; skipped", line);
-                else tags.corners.push_back({static_cast<std::uint32_t>(integers[i]), floats[std::min(i, floats.size() - 1)]});
+                if (!isVertex(integers[i]))
+                    warnings.add("crease or corner at a vertex that does not exist; skipped", line);
+                else
+                    tags.corners.push_back(
+                        {static_cast<std::uint32_t>(integers[i]), floats[std::min(i, floats.size() - 1)]});
             }
         } else if (name == "hole") {
             for (const auto face : integers) {
-                if (face < 0 || static_cast<std::size_t>(face) >= faces) { warnings.add("hole in a face that does not exist; skipped", line); continue; }
+                if (face < 0 || static_cast<std::size_t>(face) >= faces) {
+                    warnings.add("hole in a face that does not exist; skipped", line);
+                    continue;
+                }
                 const auto at = std::lower_bound(dropped_.begin(), dropped_.end(), static_cast<std::size_t>(face));
-                if (at == dropped_.end() || *at != static_cast<std::size_t>(face)) tags.holes.push_back(static_cast<std::uint32_t>(face - (at - dropped_.begin())));
+                if (at == dropped_.end() || *at != static_cast<std::size_t>(face))
+                    tags.holes.push_back(static_cast<std::uint32_t>(face - (at - dropped_.begin())));
             }
         } else if (name == "interpolateboundary") {
             tags.boundary = choice(2);
@@ -410,7 +479,7 @@ private:
     static constexpr std::uint32_t kUnset = ~0u;
     PolyMesh& mesh_;
     std::vector<std::pair<std::string, int>> tags_;
-    std::vector<std::size_t> dropped_;   // numbers of faces in the file that were not usable, ascending
+    std::vector<std::size_t> dropped_;  // numbers of faces in the file that were not usable, ascending
     NameTable materials_{mesh_.materialNames}, parts_{mesh_.partNames};
     std::uint32_t material_ = kUnset, part_ = kUnset, smoothing_ = 0;
     std::vector<char> usable_;
@@ -421,10 +490,12 @@ private:
 ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     // Pieces of a megabyte keep every core busy without costing small files anything.
-    const auto pieces = split(text, chunkCount > 0 ? static_cast<std::size_t>(chunkCount) : std::clamp<std::size_t>(text.size() >> 20, 1, 256));
+    const auto pieces = split(text,
+        chunkCount > 0 ? static_cast<std::size_t>(chunkCount) : std::clamp<std::size_t>(text.size() >> 20, 1, 256));
     std::vector<Chunk> chunks(pieces.size());
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
-        chunks[i].lines = forEachLine(pieces[i], [&](std::string_view line, int number) { readLine(line, number, chunks[i]); });
+        chunks[i].lines =
+            forEachLine(pieces[i], [&](std::string_view line, int number) { readLine(line, number, chunks[i]); });
     });
 
     ObjFile file;
@@ -432,9 +503,12 @@ ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount)
     Merger merger(file.mesh);
     merger.merge(chunks, warnings);
     if (merger.outOfRange * 2 > merger.faces)
-        throw Error(ExitCode::badData, {name, merger.firstOutOfRange}, fmt::format("{} of {} faces refer to vertices that do not exist", merger.outOfRange, merger.faces),
-                    "the file is damaged or cut off: export it again");
-    if (file.mesh.faceCount() == 0) throw Error(ExitCode::badData, {name}, merger.faces ? "no face is usable" : "there are no faces", "limn draws polygons: export the model with faces");
+        throw Error(ExitCode::badData, {name, merger.firstOutOfRange},
+            fmt::format("{} of {} faces refer to vertices that do not exist", merger.outOfRange, merger.faces),
+            "the file is damaged or cut off: export it again");
+    if (file.mesh.faceCount() == 0)
+        throw Error(ExitCode::badData, {name}, merger.faces ? "no face is usable" : "there are no faces",
+            "limn draws polygons: export the model with faces");
     file.warnings = warnings.list();
     return file;
 }

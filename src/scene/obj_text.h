@@ -21,8 +21,13 @@ struct Cursor {
     const char* at;
     const char* end;
 
-    void skipBlanks() { while (at < end && isBlank(*at)) ++at; }
-    bool atEnd() { skipBlanks(); return at == end; }
+    void skipBlanks() {
+        while (at < end && isBlank(*at)) ++at;
+    }
+    bool atEnd() {
+        skipBlanks();
+        return at == end;
+    }
     std::string_view word() {
         skipBlanks();
         const char* start = at;
@@ -94,7 +99,8 @@ struct WarningList {
     std::vector<MeshWarning> list() const {
         std::vector<MeshWarning> result;
         for (const auto& [kind, warning] : kinds) result.push_back(warning);
-        std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.firstLine < b.firstLine; });
+        std::stable_sort(
+            result.begin(), result.end(), [](const auto& a, const auto& b) { return a.firstLine < b.firstLine; });
         return result;
     }
 };

@@ -27,80 +27,87 @@ inline constexpr Color kPaperGrey{0.604f, 0.571f, 0.521f};  // #cbc6be
 struct LineOverride {
     bool draws = true;
     OptionalColor color;
-    double creaseAngle = 0;     ///< degrees; 0 = not said
-    bool isCut = false;         ///< the cut face of a section
+    double creaseAngle = 0;  ///< degrees; 0 = not said
+    bool isCut = false;      ///< the cut face of a section
     bool operator==(const LineOverride&) const = default;
 };
 
 /// Parallel lines in the picture.
 struct Hatch {
-    double spacing = 0;         ///< pixels; 0: none
-    double width = 1;           ///< pixels
-    double angle = 45;          ///< degrees from the horizontal
+    double spacing = 0;  ///< pixels; 0: none
+    double width = 1;    ///< pixels
+    double angle = 45;   ///< degrees from the horizontal
     Color color;
 };
 
 struct Material {
     std::string name;
     Color color = kPaperGrey;
-    std::string texture;        ///< image file multiplied onto the colour; empty = none
-    std::string cutout;         ///< image file: where its alpha, or without alpha its brightness, is below one half there is nothing; empty = none
-    bool vertexColors = true;   ///< multiply the mesh's vertex colours, where it has any, onto the colour
-    float shininess = 0;        ///< Blinn–Phong exponent; no highlight at 1 or below
-    float specular = 1;         ///< strength of the highlight
-    bool lines = true;          ///< are lines drawn?
+    std::string texture;  ///< image file multiplied onto the colour; empty = none
+    std::string cutout;   ///< image file: where its alpha, or without alpha its brightness, is below one half there is
+                          ///< nothing; empty = none
+    bool vertexColors = true;  ///< multiply the mesh's vertex colours, where it has any, onto the colour
+    float shininess = 0;       ///< Blinn–Phong exponent; no highlight at 1 or below
+    float specular = 1;        ///< strength of the highlight
+    bool lines = true;         ///< are lines drawn?
     OptionalColor lineColor;
-    double creaseAngle = 0;     ///< degrees; 0 = as the line technique says
-    bool isCut = false;         ///< the cut face of a section
-    Hatch hatch;                ///< lines across it, on the cut faces of sections
+    double creaseAngle = 0;  ///< degrees; 0 = as the line technique says
+    bool isCut = false;      ///< the cut face of a section
+    Hatch hatch;             ///< lines across it, on the cut faces of sections
 };
 
 /// A plane that cuts the scene open: what lies on its normal's side is taken away.
 struct Section {
-    std::string name;           ///< cut only where a config names it; empty: always
+    std::string name;  ///< cut only where a config names it; empty: always
     glm::dvec3 point{0};
     glm::dvec3 normal{0, 0, 1};
     Color fill{0.08f, 0.08f, 0.08f};
-    PictureLength hatch;        ///< distance of hatching lines over the fill; 0: none
-    double hatchAngle = 45;     ///< degrees from the picture's horizontal
+    PictureLength hatch;     ///< distance of hatching lines over the fill; 0: none
+    double hatchAngle = 45;  ///< degrees from the picture's horizontal
     PictureLength hatchWidth{0.18, PictureLength::Unit::millimetres};
     Color hatchColor{1, 1, 1};
 };
 
 enum class SubdivisionSchemeName { catmullClark, loop, bilinear };
 template <>
-inline constexpr std::array<std::string_view, 3> enumNames<SubdivisionSchemeName> = {"catmull-clark", "loop", "bilinear"};
+inline constexpr std::array<std::string_view, 3> enumNames<SubdivisionSchemeName> = {
+    "catmull-clark", "loop", "bilinear"};
 enum class BoundaryName { file, none, edgeOnly, edgeAndCorner };
 template <>
-inline constexpr std::array<std::string_view, 4> enumNames<BoundaryName> = {"file", "none", "edge_only", "edge_and_corner"};
+inline constexpr std::array<std::string_view, 4> enumNames<BoundaryName> = {
+    "file", "none", "edge_only", "edge_and_corner"};
 enum class UvBoundaryName { file, none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, all };
 template <>
-inline constexpr std::array<std::string_view, 7> enumNames<UvBoundaryName> = {"file", "none", "corners_only", "corners_plus1", "corners_plus2", "boundaries", "all"};
+inline constexpr std::array<std::string_view, 7> enumNames<UvBoundaryName> = {
+    "file", "none", "corners_only", "corners_plus1", "corners_plus2", "boundaries", "all"};
 enum class CreaseMethodName { file, normal, chaikin };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<CreaseMethodName> = {"file", "normal", "chaikin"};
-/// How a mesh is subdivided. "file" stands for what the mesh's own tags say, and where they say nothing for edge_and_corner, boundaries
-/// and normal.
+/// How a mesh is subdivided. "file" stands for what the mesh's own tags say, and where they say nothing for
+/// edge_and_corner, boundaries and normal.
 struct SubdivisionSettings {
     bool present = false;
     SubdivisionSchemeName scheme = SubdivisionSchemeName::catmullClark;
     int level = 2;
     bool limit = true;
-    std::string edgeLength;             ///< "2px" or a length in scene units; empty: level alone decides
+    std::string edgeLength;  ///< "2px" or a length in scene units; empty: level alone decides
     BoundaryName boundary = BoundaryName::file;
     UvBoundaryName uvBoundary = UvBoundaryName::file;
     CreaseMethodName creaseMethod = CreaseMethodName::file;
 
     /// What edgeLength says: pixels, or scene units. Nullopt when it is empty or no length.
-    struct EdgeLength { double amount; bool isPixels; };
+    struct EdgeLength {
+        double amount;
+        bool isPixels;
+    };
     std::optional<EdgeLength> wantedEdge() const;
 };
 
 struct MeshSource {
     std::string name;
-    std::string file;           ///< absolute, or relative to the working directory
-    bool perFrame = false;      ///< the file's name is a pattern: #### stands for the number of the frame
-    std::string creases;        ///< sidecar of creases and corners; empty = none
+    std::string file;       ///< absolute, or relative to the working directory
+    bool perFrame = false;  ///< the file's name is a pattern: #### stands for the number of the frame
+    std::string creases;    ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;
 
@@ -111,14 +118,14 @@ struct MeshSource {
 struct Instance {
     std::string name;
     std::string mesh;
-    std::string material;       ///< replaces every material of the mesh; empty = the file's own
+    std::string material;  ///< replaces every material of the mesh; empty = the file's own
     glm::dvec3 translate{0};
-    glm::dvec3 rotate{0};       ///< degrees, about x, then y, then z
+    glm::dvec3 rotate{0};  ///< degrees, about x, then y, then z
     glm::dvec3 scale{1};
-    std::vector<double> matrix; ///< 16 numbers in row order, instead of the three
-    bool lines = true;          ///< are lines drawn?
-    OptionalColor lineColor;    ///< goes before the material's, as does:
-    double creaseAngle = 0;     ///< degrees; 0 = as the material says
+    std::vector<double> matrix;  ///< 16 numbers in row order, instead of the three
+    bool lines = true;           ///< are lines drawn?
+    OptionalColor lineColor;     ///< goes before the material's, as does:
+    double creaseAngle = 0;      ///< degrees; 0 = as the material says
 
     glm::dmat4 transform() const;
 };
@@ -140,19 +147,19 @@ struct Camera {
 struct ShadowSettings {
     bool present = false;
     int resolution = 2048;
-    float softness = 1;             ///< texels
+    float softness = 1;  ///< texels
 };
 
 struct Light {
     std::string name;
     LightKind kind = LightKind::sun;
-    glm::dvec3 direction{-1, -2, -1};   ///< travel direction; sun and spot
-    glm::dvec3 position{0, 3, 0};       ///< point and spot
+    glm::dvec3 direction{-1, -2, -1};  ///< travel direction; sun and spot
+    glm::dvec3 position{0, 3, 0};      ///< point and spot
     Color color{1, 1, 1};
     double intensity = 1;
-    double range = 0;                   ///< scene units at which a point or spot light has fallen to half; 0 = no falloff
-    double angle = 45;                  ///< degrees, full cone of a spot
-    double blend = 0.15;                ///< part of the cone over which a spot fades out
+    double range = 0;     ///< scene units at which a point or spot light has fallen to half; 0 = no falloff
+    double angle = 45;    ///< degrees, full cone of a spot
+    double blend = 0.15;  ///< part of the cone over which a spot fades out
     ShadowSettings shadow;
 };
 
@@ -170,7 +177,7 @@ struct Scene {
     std::vector<Keyed<Light>> lights;
     std::vector<Keyed<Material>> materials;
     std::vector<Keyed<Section>> sections;
-    std::optional<FrameRange> frames;     ///< declared frames; none for a still
+    std::optional<FrameRange> frames;  ///< declared frames; none for a still
     double fps = 24;
 
     glm::dvec3 upVector() const { return up == Axis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1); }

@@ -5,9 +5,11 @@
 
 namespace limn {
 
-/// A depth buffer as an open shell: neighbouring pixels are joined into triangles where one lies on the other's tangent plane, to within one
-/// width of a pixel (the sides of a corner are seen at different slants, and only one of them lies near); elsewhere nothing is there. `depth` and `normals` (view space, three per pixel, rows from the upper left) are
+/// A depth buffer as an open shell: neighbouring pixels are joined into triangles where one lies on the other's tangent
+/// plane, to within one width of a pixel (the sides of a corner are seen at different slants, and only one of them lies
+/// near); elsewhere nothing is there. `depth` and `normals` (view space, three per pixel, rows from the upper left) are
 /// of `view`'s region.
-std::unique_ptr<RayScene> buildShell(const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals);
+std::unique_ptr<RayScene> buildShell(
+    const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals);
 
 }  // namespace limn

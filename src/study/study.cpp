@@ -19,18 +19,22 @@ namespace limn {
 namespace {
 
 constexpr Field kSettings[] = {
-    field<&StudySettings::size>("size", {.unit = "pixels", .min = 1, .max = 16384, .keyable = false, .doc = "Of every picture."}),
-    field<&StudySettings::rays>("rays", {.min = 1, .max = 65536, .keyable = false, .doc = "Of the truth, per pixel."}),
-    field<&StudySettings::repeat>("repeat", {.min = 1, .max = 100, .keyable = false, .doc = "The fastest of so many runs counts."}),
+    field<&StudySettings::size>(
+        "size", {.unit = "pixels", .min = 1, .max = 16384, .keyable = false}, "Of every picture."),
+    field<&StudySettings::rays>("rays", {.min = 1, .max = 65536, .keyable = false}, "Of the truth, per pixel."),
+    field<&StudySettings::repeat>(
+        "repeat", {.min = 1, .max = 100, .keyable = false}, "The fastest of so many runs counts."),
 };
 constexpr Field kPlace[] = {
-    field<&StudyPlace::name>("name", {.required = true, .doc = "As the table calls it."}),
-    field<&StudyPlace::scene>("scene", {.required = true, .doc = "Scene file or OBJ."}),
-    field<&StudyPlace::radius>("radius", {.unit = "scene units", .min = 1e-9, .keyable = false, .doc = "Of ambient occlusion."}),
+    field<&StudyPlace::name>("name", {.required = true}, "As the table calls it."),
+    field<&StudyPlace::scene>("scene", {.required = true}, "Scene file or OBJ."),
+    field<&StudyPlace::radius>(
+        "radius", {.unit = "scene units", .min = 1e-9, .keyable = false}, "Of ambient occlusion."),
 };
 constexpr Field kMethod[] = {
-    field<&StudyMethod::name>("name", {.required = true, .doc = "As the table calls it."}),
-    field<&StudyMethod::milliseconds>("milliseconds", {.min = 0, .keyable = false, .doc = "Settings that take longer do not count; 0 = no limit."}),
+    field<&StudyMethod::name>("name", {.required = true}, "As the table calls it."),
+    field<&StudyMethod::milliseconds>(
+        "milliseconds", {.min = 0, .keyable = false}, "Settings that take longer do not count; 0 = no limit."),
 };
 
 class StudyReader {
@@ -39,10 +43,14 @@ public:
         const Node document = readDocument(path);
         Study study;
         for (const auto& [key, node] : document.table()) {
-            if (key == "image") readFields(node, kSettings, &study.settings, nullptr, "[image]", errors_);
-            else if (key == "place") forEach(node, [&](const Node& place) { study.places.push_back(readPlace(place)); });
-            else if (key == "method") forEach(node, [&](const Node& method) { study.methods.push_back(readMethod(method)); });
-            else fail(node, fmt::format("a study has no '{}'", key), "it can be image, place or method");
+            if (key == "image")
+                readFields(node, kSettings, &study.settings, nullptr, "[image]", errors_);
+            else if (key == "place")
+                forEach(node, [&](const Node& place) { study.places.push_back(readPlace(place)); });
+            else if (key == "method")
+                forEach(node, [&](const Node& method) { study.methods.push_back(readMethod(method)); });
+            else
+                fail(node, fmt::format("a study has no '{}'", key), "it can be image, place or method");
         }
         if (study.places.empty()) fail(document, "the study has no [[place]]", "add one, with name, scene and score");
         if (study.methods.empty()) fail(document, "the study has no [[method]]", "add one, with name and ao");
@@ -51,7 +59,9 @@ public:
     }
 
 private:
-    void fail(const Node& node, std::string problem, std::string remedy) { errors_.add({ExitCode::usage, node.where, std::move(problem), std::move(remedy)}); }
+    void fail(const Node& node, std::string problem, std::string remedy) {
+        errors_.add({ExitCode::usage, node.where, std::move(problem), std::move(remedy)});
+    }
 
     void forEach(const Node& node, const auto& read) {
         if (!node.isArray()) return fail(node, "this must be a list of tables", "write it in double brackets");
@@ -64,15 +74,20 @@ private:
         readFields(node, kPlace, &place, nullptr, "[[place]]", errors_, alsoKnown);
         if (const Node* scene = node.find("scene"); scene && scene->text()) {
             place.scene = pathIn(*scene).string();
-            if (!fileExists(place.scene)) errors_.add({ExitCode::missingInput, scene->where, fmt::format("the scene '{}' does not exist", place.scene), "paths are relative to the file that names them"});
+            if (!fileExists(place.scene))
+                errors_.add(
+                    {ExitCode::missingInput, scene->where, fmt::format("the scene '{}' does not exist", place.scene),
+                        "paths are relative to the file that names them"});
         }
         const auto names = [&](const char* key, std::vector<std::string>& into) {
             const Node* list = node.find(key);
             if (!list) return;
             if (!list->isArray()) return fail(*list, fmt::format("'{}' must be a list of cameras", key), "");
             for (const auto& entry : list->array())
-                if (entry.text()) into.push_back(*entry.text());
-                else fail(entry, "a camera's name must be text", "");
+                if (entry.text())
+                    into.push_back(*entry.text());
+                else
+                    fail(entry, "a camera's name must be text", "");
         };
         names("tune", place.tune);
         names("score", place.score);
@@ -88,16 +103,22 @@ private:
             method.ao = *ao;
             static constexpr std::string_view filter[] = {"filter"};
             static_cast<void>(readChoice(*ao, "ao", "", "ao of [[method]]", errors_, filter));
-        }
-        else fail(node, "a [[method]] needs 'ao', a table as in a render config", "");
+        } else
+            fail(node, "a [[method]] needs 'ao', a table as in a render config", "");
         if (const Node* tune = node.find("tune")) {
-            if (!tune->isTable()) fail(*tune, "'tune' must be a table of lists", "");
-            else for (const auto& [key, values] : tune->table()) {
-                StudyAxis axis{key, {}};
-                if (!values.isArray() || values.array().empty()) fail(values, fmt::format("'{}' must be a list of values", key), "");
-                else for (const auto& value : values.array()) axis.values.push_back(value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
-                method.axes.push_back(std::move(axis));
-            }
+            if (!tune->isTable())
+                fail(*tune, "'tune' must be a table of lists", "");
+            else
+                for (const auto& [key, values] : tune->table()) {
+                    StudyAxis axis{key, {}};
+                    if (!values.isArray() || values.array().empty())
+                        fail(values, fmt::format("'{}' must be a list of values", key), "");
+                    else
+                        for (const auto& value : values.array())
+                            axis.values.push_back(
+                                value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
+                    method.axes.push_back(std::move(axis));
+                }
         }
         return method;
     }
@@ -108,7 +129,7 @@ private:
 /// What is known of one camera.
 struct Shot {
     std::string camera;
-    std::vector<float> truth, shell;   ///< visibility; negative on the background
+    std::vector<float> truth, shell;  ///< visibility; negative on the background
 };
 
 Deviation compare(const std::vector<float>& picture, const std::vector<float>& truth) {
@@ -117,7 +138,8 @@ Deviation compare(const std::vector<float>& picture, const std::vector<float>& t
     for (std::size_t i = 0; i < picture.size(); ++i) {
         if (truth[i] < 0) continue;
         const double d = static_cast<double>(picture[i]) - static_cast<double>(truth[i]);
-        sum += d, squares += d * d;
+        sum += d;
+        squares += d * d;
         off.push_back(std::abs(d));
     }
     if (off.empty()) return {};
@@ -130,7 +152,8 @@ Deviation compare(const std::vector<float>& picture, const std::vector<float>& t
 /// Runs the methods in one place.
 class PlaceRunner {
 public:
-    PlaceRunner(Renderer& renderer, const StudySettings& settings, const StudyPlace& place) : renderer_(renderer), settings_(settings), place_(place), loaded_(loadScene(place.scene)) {}
+    PlaceRunner(Renderer& renderer, const StudySettings& settings, const StudyPlace& place)
+        : renderer_(renderer), settings_(settings), place_(place), loaded_(loadScene(place.scene)) {}
 
     StudyRow score(const StudyMethod& method, const std::vector<std::string>& settings, const std::string& camera) {
         const Shot& known = shot(camera);
@@ -141,7 +164,9 @@ public:
             for (float& v : values) v = v < 0 ? 1 : v;
             return Image{settings_.size.x, settings_.size.y, 1, std::move(values)};
         };
-        row.picture = image(picture_), row.truthPicture = image(known.truth), row.shellPicture = image(known.shell);
+        row.picture = image(picture_);
+        row.truthPicture = image(known.truth);
+        row.shellPicture = image(known.shell);
         return row;
     }
 
@@ -150,7 +175,8 @@ public:
         std::vector<std::size_t> at(method.axes.size(), 0);
         const auto settings = [&] {
             std::vector<std::string> chosen;
-            for (std::size_t a = 0; a < at.size(); ++a) chosen.push_back(fmt::format("ao.{}={}", method.axes[a].key, method.axes[a].values[at[a]]));
+            for (std::size_t a = 0; a < at.size(); ++a)
+                chosen.push_back(fmt::format("ao.{}={}", method.axes[a].key, method.axes[a].values[at[a]]));
             return chosen;
         };
         if (place_.tune.empty() || method.axes.empty()) return settings();
@@ -164,7 +190,9 @@ public:
                 milliseconds = std::max(milliseconds, row.milliseconds);
             }
             // Too slow is worse than any error, and slower is worse than that.
-            const double value = method.milliseconds > 0 && milliseconds > method.milliseconds ? 1e3 + milliseconds : std::sqrt(squares / static_cast<double>(place_.tune.size()));
+            const double value = method.milliseconds > 0 && milliseconds > method.milliseconds
+                ? 1e3 + milliseconds
+                : std::sqrt(squares / static_cast<double>(place_.tune.size()));
             return known[at] = value;
         };
         double best = cost();
@@ -175,7 +203,11 @@ public:
                 std::size_t choice = was;
                 for (std::size_t v = 0; v < method.axes[a].values.size(); ++v) {
                     at[a] = v;
-                    if (const double value = cost(); value < best) best = value, choice = v, improved = true;
+                    if (const double value = cost(); value < best) {
+                        best = value;
+                        choice = v;
+                        improved = true;
+                    }
                 }
                 at[a] = choice;
             }
@@ -184,19 +216,26 @@ public:
     }
 
 private:
-    RenderConfig config(const std::string& camera, Node ao, const std::vector<std::string>& settings, std::string_view aovs) const {
-        Node document = parseDocument(fmt::format("shading = 'flat'\n[image]\nsize = [{}, {}]\nsamples = 1\n[output]\naovs = [{}]\n", settings_.size.x, settings_.size.y, aovs), "study");
+    RenderConfig config(
+        const std::string& camera, Node ao, const std::vector<std::string>& settings, std::string_view aovs) const {
+        Node document = parseDocument(
+            fmt::format("shading = 'flat'\n[image]\nsize = [{}, {}]\nsamples = 1\n[output]\naovs = [{}]\n",
+                settings_.size.x, settings_.size.y, aovs),
+            "study");
         auto& table = std::get<Node::Table>(document.value);
         table.emplace_back("scene", Node{{}, place_.scene, {}});
         if (!camera.empty()) table.emplace_back("camera", Node{{}, camera, {}});
         if (ao.isTable() && !ao.table().empty()) {
             const bool hasRadius = [&] {
                 const Node* technique = ao.find("technique");
-                const Technique* known = technique && technique->text() ? findTechnique("ao", *technique->text()) : nullptr;
+                const Technique* known =
+                    technique && technique->text() ? findTechnique("ao", *technique->text()) : nullptr;
                 return known && findField(known->schema, "radius");
             }();
             if (hasRadius && !ao.find("radius"))
-                std::get<Node::Table>(ao.value).emplace_back("radius", place_.radius.relative ? Node{{}, fmt::format("{}%", place_.radius.amount * 100), {}} : Node{{}, place_.radius.amount, {}});
+                std::get<Node::Table>(ao.value).emplace_back("radius",
+                    place_.radius.relative ? Node{{}, fmt::format("{}%", place_.radius.amount * 100), {}}
+                                           : Node{{}, place_.radius.amount, {}});
             table.emplace_back("ao", std::move(ao));
         }
         for (const auto& setting : settings) applySetting(document, setting);
@@ -217,10 +256,15 @@ private:
 
         // The same rays against what the depth buffer shows, guard band and all.
         RenderOptions wide;
-        wide.guard = static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
+        wide.guard =
+            static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
         const RenderConfig surfaces = config(camera, Node{}, {}, "'depth', 'normal_geometric'");
         const RenderedFrame seen = renderer_.render(surfaces, loaded_, loaded_.scene.firstFrame(), wide);
-        const DrawScene scene = resolveFrame(loaded_, {.camera = camera, .frame = static_cast<double>(loaded_.scene.firstFrame()), .imageSize = settings_.size, .sections = {}});
+        const DrawScene scene = resolveFrame(loaded_,
+            {.camera = camera,
+                .frame = static_cast<double>(loaded_.scene.firstFrame()),
+                .imageSize = settings_.size,
+                .sections = {}});
         const auto shell = buildShell(seen.view, scene.info, seen.layers[0].image.pixels, seen.layers[1].image.pixels);
         shot.shell = traceShell(*shell, seen);
         for (std::size_t i = 0; i < shot.shell.size(); ++i)
@@ -233,18 +277,27 @@ private:
         const glm::ivec2 size = seen.view.region.size;
         const auto pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
         std::vector<float> depth(pixels), normals(2 * pixels), visibility(pixels, 1.0f);
-        const auto turned = [&](int x, int y) { return static_cast<std::size_t>(size.y - 1 - y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x); };
+        const auto turned = [&](int x, int y) {
+            return static_cast<std::size_t>(size.y - 1 - y) * static_cast<std::size_t>(size.x)
+                + static_cast<std::size_t>(x);
+        };
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
-                const std::size_t from = turned(x, y), to = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+                const std::size_t from = turned(x, y),
+                                  to = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x)
+                    + static_cast<std::size_t>(x);
                 const float z = seen.layers[0].image.pixels[from];
-                depth[to] = std::isfinite(z) ? static_cast<float>(static_cast<double>(z) * seen.view.unit) : kBackgroundDepth;
+                depth[to] =
+                    std::isfinite(z) ? static_cast<float>(static_cast<double>(z) * seen.view.unit) : kBackgroundDepth;
                 const float* n = &seen.layers[1].image.pixels[3 * from];
                 const glm::vec2 encoded = encodeDirection({n[0], n[1], n[2]});
-                normals[2 * to] = encoded.x, normals[2 * to + 1] = encoded.y;
+                normals[2 * to] = encoded.x;
+                normals[2 * to + 1] = encoded.y;
             }
         const int guard = seen.view.guard;
-        traceAmbientOcclusion(shell, seen.view, {depth, normals}, {seen.view.normalized(place_.radius), Falloff::none, settings_.rays}, {glm::ivec2(guard), settings_.size}, visibility, {});
+        traceAmbientOcclusion(shell, seen.view, {depth, normals},
+            {seen.view.normalized(place_.radius), Falloff::none, settings_.rays}, {glm::ivec2(guard), settings_.size},
+            visibility, {});
         std::vector<float> picture;
         for (int y = 0; y < settings_.size.y; ++y)
             for (int x = 0; x < settings_.size.x; ++x) picture.push_back(visibility[turned(x + guard, y + guard)]);
@@ -253,7 +306,10 @@ private:
 
     StudyRow draw(const StudyMethod& method, const std::vector<std::string>& settings, const std::string& camera) {
         StudyRow row;
-        row.place = place_.name, row.camera = camera, row.method = method.name, row.milliseconds = 1e30;
+        row.place = place_.name;
+        row.camera = camera;
+        row.method = method.name;
+        row.milliseconds = 1e30;
         for (const auto& setting : settings) row.settings += (row.settings.empty() ? "" : " ") + setting.substr(3);
         const RenderConfig wanted = config(camera, method.ao, settings, "'ambient_occlusion'");
         RenderOptions options;
@@ -266,10 +322,15 @@ private:
             for (const auto& pass : renderer_.passTimes())
                 if (pass.slot == "ao" || pass.slot == "filter") milliseconds += pass.milliseconds;
             milliseconds -= renderer_.transferMilliseconds();
-            if (milliseconds < row.milliseconds) row.milliseconds = milliseconds, row.transferMilliseconds = renderer_.transferMilliseconds();
+            if (milliseconds < row.milliseconds) {
+                row.milliseconds = milliseconds;
+                row.transferMilliseconds = renderer_.transferMilliseconds();
+            }
             picture_ = std::move(frame.layers[0].image.pixels);
         }
-        if (const Node* technique = method.ao.find("technique"); technique && technique->text() && *technique->text() == "ray_traced") row.treeMilliseconds = tree_;
+        if (const Node* technique = method.ao.find("technique");
+            technique && technique->text() && *technique->text() == "ray_traced")
+            row.treeMilliseconds = tree_;
         row.microsecondsPerPixel = row.milliseconds * 1e3 / (static_cast<double>(settings_.size.x) * settings_.size.y);
         return row;
     }
@@ -279,7 +340,7 @@ private:
     const StudyPlace& place_;
     LoadedScene loaded_;
     std::map<std::string, Shot> shots_;
-    std::vector<float> picture_;   ///< of the last draw()
+    std::vector<float> picture_;  ///< of the last draw()
     double tree_ = 0;
 };
 

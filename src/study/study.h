@@ -1,4 +1,5 @@
-// What accuracy costs in time: settings of ambient occlusion swept over scenes and cameras, against the ray-traced truth.
+// What accuracy costs in time: settings of ambient occlusion swept over scenes and cameras, against the ray-traced
+// truth.
 //
 // A study file:
 //
@@ -43,15 +44,15 @@ struct StudyPlace {
 };
 
 struct StudyAxis {
-    std::string key;                    ///< below [ao]
-    std::vector<std::string> values;    ///< TOML
+    std::string key;                  ///< below [ao]
+    std::vector<std::string> values;  ///< TOML
 };
 
 struct StudyMethod {
     std::string name;
     Node ao;
     std::vector<StudyAxis> axes;
-    double milliseconds = 0;            ///< limit; 0 = none
+    double milliseconds = 0;  ///< limit; 0 = none
 };
 
 struct Study {
@@ -66,14 +67,14 @@ struct Deviation {
 };
 
 struct StudyRow {
-    std::string place, camera, method, settings;   ///< settings: what the tuner chose
-    Deviation truth;                                 ///< against rays in the scene
-    double shellRmse = 0;                          ///< against rays in the depth buffer's own triangles
-    double milliseconds = 0;                       ///< of the ao and filter passes, transfers left out
-    double transferMilliseconds = 0;               ///< of reading images back for passes on the CPU, and sending results on
-    double treeMilliseconds = 0;                   ///< of building the ray tracing tree
+    std::string place, camera, method, settings;  ///< settings: what the tuner chose
+    Deviation truth;                              ///< against rays in the scene
+    double shellRmse = 0;                         ///< against rays in the depth buffer's own triangles
+    double milliseconds = 0;                      ///< of the ao and filter passes, transfers left out
+    double transferMilliseconds = 0;  ///< of reading images back for passes on the CPU, and sending results on
+    double treeMilliseconds = 0;      ///< of building the ray tracing tree
     double microsecondsPerPixel = 0;
-    Image picture, truthPicture, shellPicture;     ///< visibility; 1 on the background
+    Image picture, truthPicture, shellPicture;  ///< visibility; 1 on the background
 };
 
 /// Reads a study file. Every problem at once (Errors).

@@ -1,9 +1,10 @@
-// Animations out of the real Blender: keys where things move, one file where they are rigid, a file per frame where they change their shape.
+// Animations out of the real Blender: keys where things move, one file where they are rigid, a file per frame where
+// they change their shape.
 
+#include "base/file.h"
+#include "config/document.h"
 #include "scene/obj.h"
 #include "scene/scene.h"
-#include "config/document.h"
-#include "base/file.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,12 @@ TEST(Animation, ofBlenderIsWrittenFrameByFrame) {
     const TemporaryFolder temporary;
     const fs::path& folder = temporary.path();
     const std::string source = LIMN_SOURCE_DIR;
-    ASSERT_EQ(std::system(fmt::format("blender -b --python-exit-code 1 -P '{0}/tests/blender/animation.py' -- '{0}/src/blender/export.py' '{1}' > '{1}/log' 2>&1", source, folder.string()).c_str()), 0) << readFile(folder / "log");
+    ASSERT_EQ(std::system(fmt::format("blender -b --python-exit-code 1 -P '{0}/tests/blender/animation.py' -- "
+                                      "'{0}/src/blender/export.py' '{1}' > '{1}/log' 2>&1",
+                  source, folder.string())
+                              .c_str()),
+        0)
+        << readFile(folder / "log");
 
     const Scene scene = readScene(folder / "scene.toml");
     ASSERT_TRUE(scene.frames);
@@ -45,7 +51,8 @@ TEST(Animation, ofBlenderIsWrittenFrameByFrame) {
 
     for (const char* name : {"mover", "child"}) EXPECT_TRUE(instance(name).moves()) << name;
     for (const char* name : {"rigid", "bending", "still"}) EXPECT_FALSE(instance(name).moves()) << name;
-    for (const char* name : {"mover", "rigid", "still", "child"}) EXPECT_TRUE(fs::exists(mesh(name).file)) << name << ": once for all frames";
+    for (const char* name : {"mover", "rigid", "still", "child"})
+        EXPECT_TRUE(fs::exists(mesh(name).file)) << name << ": once for all frames";
     EXPECT_TRUE(mesh("bending").file.ends_with("_####.obj"));
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator(folder / "meshes")) files += entry.path().extension() == ".obj";

@@ -1,4 +1,5 @@
-// Through the real Blender and back: what our exporter writes, limn must make into what Blender itself evaluates and draws.
+// Through the real Blender and back: what our exporter writes, limn must make into what Blender itself evaluates and
+// draws.
 
 #include "geometry/topology.h"
 #include "image/codecs.h"
@@ -23,7 +24,10 @@ protected:
         if (std::system("command -v blender >/dev/null 2>&1") != 0) return;
         folder() = fs::temp_directory_path() / fmt::format("limn-round-trip-{}", ::getpid());
         const std::string source = LIMN_SOURCE_DIR;
-        const std::string command = fmt::format("blender -b --python-exit-code 1 -P '{0}/tests/blender/round_trip.py' -- '{0}/src/blender/export.py' '{1}' > '{1}.log' 2>&1", source, folder().string());
+        const std::string command = fmt::format(
+            "blender -b --python-exit-code 1 -P '{0}/tests/blender/round_trip.py' -- '{0}/src/blender/export.py' '{1}' "
+            "> '{1}.log' 2>&1",
+            source, folder().string());
         ran() = std::system(command.c_str());
     }
     static void TearDownTestSuite() {
@@ -61,7 +65,8 @@ TEST_F(RoundTrip, pointsAndUvsAreBlenders) {
         EXPECT_EQ(options->limit, source.name.ends_with("_limit"));
         const PolyMesh ours = refineUniformly(loaded.meshes[i].poly, *options, false);
         const PolyMesh theirs = readObj(folder() / "truth" / (source.name + ".obj")).mesh;
-        // Blender's own patches reach the limit of the sharpest semi-sharp creases (8.1) to 2.3e-5 only, at its highest quality.
+        // Blender's own patches reach the limit of the sharpest semi-sharp creases (8.1) to 2.3e-5 only, at its highest
+        // quality.
         const double reach = (source.name == "creased_limit" ? 3e-5 : 1e-5) * diagonal(theirs.positions);
         EXPECT_EQ(ours.faceCount(), theirs.faceCount()) << source.name;
         ASSERT_EQ(ours.positions.size(), theirs.positions.size()) << source.name;
@@ -76,7 +81,11 @@ TEST_F(RoundTrip, pointsAndUvsAreBlenders) {
             for (std::size_t o = 0; o < ours.cornerPosition.size(); ++o) {
                 const double distance = glm::distance(place, ours.positions[ours.cornerPosition[o]]);
                 nearest = std::min(nearest, distance);
-                uvFound = uvFound || (distance <= reach && glm::distance(theirs.uvs[static_cast<std::size_t>(theirs.cornerUv[c])], ours.uvs[static_cast<std::size_t>(ours.cornerUv[o])]) <= 1e-5f);
+                uvFound = uvFound
+                    || (distance <= reach
+                        && glm::distance(theirs.uvs[static_cast<std::size_t>(theirs.cornerUv[c])],
+                               ours.uvs[static_cast<std::size_t>(ours.cornerUv[o])])
+                            <= 1e-5f);
             }
             worst = std::max(worst, nearest);
             astray += !uvFound;

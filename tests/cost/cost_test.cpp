@@ -41,11 +41,21 @@ public:
     Counting() {
         counts = {};
         realDrawArrays = epoxy_glDrawArrays;
-        epoxy_glDrawArrays = [](GLenum mode, GLint first, GLsizei count) { ++counts.draws; realDrawArrays(mode, first, count); };
+        epoxy_glDrawArrays = [](GLenum mode, GLint first, GLsizei count) {
+            ++counts.draws;
+            realDrawArrays(mode, first, count);
+        };
         realMultiDraw = epoxy_glMultiDrawElementsIndirect;
-        epoxy_glMultiDrawElementsIndirect = [](GLenum mode, GLenum type, const void* indirect, GLsizei count, GLsizei stride) { ++counts.draws; realMultiDraw(mode, type, indirect, count, stride); };
+        epoxy_glMultiDrawElementsIndirect = [](GLenum mode, GLenum type, const void* indirect, GLsizei count,
+                                                GLsizei stride) {
+            ++counts.draws;
+            realMultiDraw(mode, type, indirect, count, stride);
+        };
         realDispatch = epoxy_glDispatchCompute;
-        epoxy_glDispatchCompute = [](GLuint x, GLuint y, GLuint z) { ++counts.dispatches; realDispatch(x, y, z); };
+        epoxy_glDispatchCompute = [](GLuint x, GLuint y, GLuint z) {
+            ++counts.dispatches;
+            realDispatch(x, y, z);
+        };
         realTextureStorage = epoxy_glTextureStorage2D;
         epoxy_glTextureStorage2D = [](GLuint id, GLsizei levels, GLenum format, GLsizei w, GLsizei h) {
             ++counts.textures;
@@ -53,11 +63,20 @@ public:
             realTextureStorage(id, levels, format, w, h);
         };
         realBufferStorage = epoxy_glNamedBufferStorage;
-        epoxy_glNamedBufferStorage = [](GLuint id, GLsizeiptr size, const void* data, GLbitfield flags) { counts.bufferBytes += static_cast<std::uint64_t>(size); realBufferStorage(id, size, data, flags); };
+        epoxy_glNamedBufferStorage = [](GLuint id, GLsizeiptr size, const void* data, GLbitfield flags) {
+            counts.bufferBytes += static_cast<std::uint64_t>(size);
+            realBufferStorage(id, size, data, flags);
+        };
         realUseProgram = epoxy_glUseProgram;
-        epoxy_glUseProgram = [](GLuint id) { ++counts.programs; realUseProgram(id); };
+        epoxy_glUseProgram = [](GLuint id) {
+            ++counts.programs;
+            realUseProgram(id);
+        };
         realCreateFramebuffers = epoxy_glCreateFramebuffers;
-        epoxy_glCreateFramebuffers = [](GLsizei n, GLuint* ids) { counts.framebuffers += n; realCreateFramebuffers(n, ids); };
+        epoxy_glCreateFramebuffers = [](GLsizei n, GLuint* ids) {
+            counts.framebuffers += n;
+            realCreateFramebuffers(n, ids);
+        };
     }
     ~Counting() {
         epoxy_glDrawArrays = realDrawArrays;
@@ -70,7 +89,9 @@ public:
     }
 };
 
-const std::string kScene = "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\n[[light]]\ndirection = [-1, -2, -1]\n";
+const std::string kScene =
+    "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, "
+    "-1]\n[[light]]\ndirection = [-1, -2, -1]\n";
 const std::string kBase = "[image]\nsize = [96, 64]\nsamples = 4\n";
 
 struct Drawn {
@@ -83,7 +104,10 @@ void resolveEntryPoints() {
     static const bool resolved = [] {
         Renderer first{gl::DeviceOptions{}};
         const LoadedScene loaded = makeScene(kScene + "shadow = {}\n", {{"m.obj", mixedObj()}});
-        first.render(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\n[[edges]]\ntechnique = 'depth_normal'\n"), loaded, 1, {});
+        first.render(makeConfig(kBase
+                         + "[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\n[[edges]]\ntechnique = "
+                           "'depth_normal'\n"),
+            loaded, 1, {});
         return true;
     }();
     static_cast<void>(resolved);
@@ -103,10 +127,18 @@ Drawn run(const std::string& config, const std::string& scene = kScene) {
 TEST(Cost, anEffectThatNothingReadsCostsExactlyNothing) {
     const std::string toon = "[shading]\ntechnique = 'toon'\n", flat = "[shading]\ntechnique = 'flat'\n";
     const Drawn bareToon = run(toon), bareFlat = run(flat);
-    struct Case { const char* what; std::string config; const Drawn& bare; };
+    struct Case {
+        const char* what;
+        std::string config;
+        const Drawn& bare;
+    };
     const Case cases[] = {
-        {"ambient occlusion of strength 0 under toon", "[shading]\ntechnique = 'toon'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\nfilter = { technique = 'gaussian' }\n", bareToon},
-        {"ambient occlusion of strength 0 under flat", "[shading]\ntechnique = 'flat'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\n", bareFlat},
+        {"ambient occlusion of strength 0 under toon",
+            "[shading]\ntechnique = 'toon'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\nfilter = { technique = "
+            "'gaussian' }\n",
+            bareToon},
+        {"ambient occlusion of strength 0 under flat",
+            "[shading]\ntechnique = 'flat'\nao_strength = 0\n[ao]\ntechnique = 'toon_ssao'\n", bareFlat},
         {"lines of opacity 0", toon + "[[edges]]\ntechnique = 'depth_normal'\nopacity = 0\n", bareToon},
     };
     for (const auto& c : cases) {
@@ -129,7 +161,8 @@ TEST(Cost, everyEffectThatIsReadIsCounted) {
     const Drawn edges = run("[shading]\ntechnique = 'toon'\n[[edges]]\ntechnique = 'depth_normal'\n");
     const Drawn shadow = run("[shading]\ntechnique = 'toon'\n", kScene + "shadow = {}\n");
     const auto passes = [](const Drawn& r) { return r.counts.draws + r.counts.dispatches; };
-    // Four samples: one AO pass each; detection, two masks, places, pieces and strokes each; one shadow map for all of them.
+    // Four samples: one AO pass each; detection, two masks, places, pieces and strokes each; one shadow map for all of
+    // them.
     EXPECT_EQ(passes(ao), passes(bare) + 4);
     EXPECT_EQ(passes(edges), passes(bare) + 4 * 6);
     EXPECT_EQ(passes(shadow), passes(bare) + 1);
@@ -141,7 +174,8 @@ TEST(Cost, everyEffectThatIsReadIsCounted) {
 
 TEST(Cost, attributesThatNobodyReadsAreNotUploaded) {
     // Flat colours need neither normals nor lights; depth alone needs no materials.
-    const Drawn toon = run("[shading]\ntechnique = 'toon'\n"), flat = run("[shading]\ntechnique = 'flat'\n"), depth = run("[output]\naovs = ['depth']\n");
+    const Drawn toon = run("[shading]\ntechnique = 'toon'\n"), flat = run("[shading]\ntechnique = 'flat'\n"),
+                depth = run("[output]\naovs = ['depth']\n");
     EXPECT_GT(toon.counts.bufferBytes, flat.counts.bufferBytes);
     EXPECT_GT(flat.counts.bufferBytes, depth.counts.bufferBytes);
     EXPECT_EQ(depth.counts.draws + depth.counts.dispatches, 2) << "visibility and resolve, once";
@@ -149,7 +183,9 @@ TEST(Cost, attributesThatNobodyReadsAreNotUploaded) {
 
 TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {
     const LoadedScene dull = makeScene(kScene, {{"m.obj", mixedObj()}});
-    const LoadedScene shiny = makeScene(kScene + "[[material]]\nname = 'shiny'\nshininess = 20\n[[instance]]\nmesh = 'm'\nmaterial = 'shiny'\n", {{"m.obj", mixedObj()}});
+    const LoadedScene shiny = makeScene(
+        kScene + "[[material]]\nname = 'shiny'\nshininess = 20\n[[instance]]\nmesh = 'm'\nmaterial = 'shiny'\n",
+        {{"m.obj", mixedObj()}});
     const auto readsMaterials = [](const LoadedScene& scene, const std::string& config) {
         const ExplainedPlan plan = planConfig(makeConfig(kBase + config), scene, 1);
         for (const auto& planned : plan.frame.plan.passes)
@@ -168,7 +204,9 @@ TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {
 TEST(Cost, planOfTheBarePictureNamesNoEffect) {
     const LoadedScene loaded = makeScene(kScene, {{"m.obj", mixedObj()}});
     const ExplainedPlan plan = planConfig(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n"), loaded, 1);
-    for (const auto& pass : plan.frame.graph.passes) EXPECT_TRUE(pass.slot != "ao" && pass.slot != "filter" && pass.slot != "edges" && pass.slot != "shadow") << pass.name;
+    for (const auto& pass : plan.frame.graph.passes)
+        EXPECT_TRUE(pass.slot != "ao" && pass.slot != "filter" && pass.slot != "edges" && pass.slot != "shadow")
+            << pass.name;
 }
 
 }  // namespace

@@ -18,7 +18,8 @@
 namespace limn::test {
 namespace {
 
-const std::string kConfig = "scene = \"scene.toml\"\n[image]\nsize = [64, 48]\nsamples = 1\n[output]\npath = \"out/picture.png\"\n";
+const std::string kConfig =
+    "scene = \"scene.toml\"\n[image]\nsize = [64, 48]\nsamples = 1\n[output]\npath = \"out/picture.png\"\n";
 
 /// A folder with a small scene and a config that draws it.
 class Errors : public testing::Test {
@@ -29,11 +30,14 @@ protected:
         write("config.toml", kConfig);
     }
     void write(const std::string& name, const std::string& text) { std::ofstream(folder.path() / name) << text; }
-    RunResult run(const std::string& arguments, const std::string& environment = "") { return runLimn(arguments, folder.path(), environment); }
+    RunResult run(const std::string& arguments, const std::string& environment = "") {
+        return runLimn(arguments, folder.path(), environment);
+    }
     /// Files that a failed run must not leave.
     int temporaries() const {
         int count = 0;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) count += entry.path().filename().string().starts_with(".limn-");
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+            count += entry.path().filename().string().starts_with(".limn-");
         return count;
     }
     void expect(const std::string& arguments, int code, const std::string& words) {
@@ -82,7 +86,8 @@ TEST_F(Errors, wordsAndNumbers) {
 }
 
 TEST_F(Errors, allAtOnce) {
-    write("many.toml", kConfig + "[ao]\ntechnique = \"toon_ssao\"\nraduis = 1\npoints = 0\n[[edges]]\ntechnique = \"lines\"\n");
+    write("many.toml",
+        kConfig + "[ao]\ntechnique = \"toon_ssao\"\nraduis = 1\npoints = 0\n[[edges]]\ntechnique = \"lines\"\n");
     const RunResult r = run("check many.toml");
     EXPECT_EQ(r.exitCode, 64);
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 3) << r.err;
@@ -119,7 +124,11 @@ TEST_F(Errors, placesThatCannotBeWritten) {
     std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms(0555));
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
     if (geteuid() == 0) {
-        const int status = std::system(fmt::format("cd '{}' && setpriv --reuid=65534 --clear-groups '{}' render config.toml --output closed/picture.png 2>'{}/said'", folder.path().string(), LIMN_PROGRAM, std::filesystem::temp_directory_path().string()).c_str());
+        const int status =
+            std::system(fmt::format("cd '{}' && setpriv --reuid=65534 --clear-groups '{}' render config.toml --output "
+                                    "closed/picture.png 2>'{}/said'",
+                folder.path().string(), LIMN_PROGRAM, std::filesystem::temp_directory_path().string())
+                            .c_str());
         EXPECT_EQ(WEXITSTATUS(status), 77);
     } else {
         EXPECT_EQ(run("render config.toml --output closed/picture.png").exitCode, 77);
@@ -131,15 +140,19 @@ std::string bytesOf(const std::filesystem::path& path) { return std::filesystem:
 TEST_F(Errors, aFullDiskKeepsTheOldPicture) {
     const auto disk = folder.path() / "disk";
     std::filesystem::create_directory(disk);
-    if (geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=32k") != 0) GTEST_SKIP() << "mounting a small file system needs root; the limits below test the same path";
+    if (geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=32k") != 0)
+        GTEST_SKIP() << "mounting a small file system needs root; the limits below test the same path";
     // Noise does not compress.
     write("m.obj", mixedObj());
-    write("large.toml", kConfig + "aovs = [\"beauty\", \"depth\"]\n[ao]\ntechnique = \"toon_ssao\"\nradius = \"30%\"\n");
+    write(
+        "large.toml", kConfig + "aovs = [\"beauty\", \"depth\"]\n[ao]\ntechnique = \"toon_ssao\"\nradius = \"30%\"\n");
     for (const char* format : {"png", "jpg", "tif", "exr"}) {
         const auto picture = disk / (std::string("picture.") + format);
         std::ofstream(picture) << "the old picture";
         std::ofstream(disk / "filler") << std::string(20000, 'x');
-        const RunResult r = run(fmt::format("render large.toml --set image.size=[400,300] --set output.bits={} --output disk/picture.{}", std::string(format) == "png" || std::string(format) == "tif" ? 16 : 8, format));
+        const RunResult r = run(
+            fmt::format("render large.toml --set image.size=[400,300] --set output.bits={} --output disk/picture.{}",
+                std::string(format) == "png" || std::string(format) == "tif" ? 16 : 8, format));
         EXPECT_EQ(r.exitCode, 74) << format << r.err;
         EXPECT_TRUE(bytesOf(picture) == "the old picture") << format;
         EXPECT_EQ(temporaries(), 0) << format;
@@ -148,12 +161,13 @@ TEST_F(Errors, aFullDiskKeepsTheOldPicture) {
     ::umount(disk.c_str());
 }
 
-// Every way that writing can be cut short: a limit on the file's size at a thousand offsets, for each format. No GL here, so that a child
-// process can take the limit upon itself.
+// Every way that writing can be cut short: a limit on the file's size at a thousand offsets, for each format. No GL
+// here, so that a child process can take the limit upon itself.
 TEST_F(Errors, aFileCutOffAnywhereIsNoticed) {
     std::signal(SIGXFSZ, SIG_IGN);
     Layer layer{"beauty", {"R", "G", "B"}, true, false, {48, 32, 3, std::vector<float>(48 * 32 * 3)}};
-    for (std::size_t i = 0; i < layer.image.pixels.size(); ++i) layer.image.pixels[i] = static_cast<float>((i * 2654435761u >> 8) % 1000) / 1000;
+    for (std::size_t i = 0; i < layer.image.pixels.size(); ++i)
+        layer.image.pixels[i] = static_cast<float>((i * 2654435761u >> 8) % 1000) / 1000;
     for (const char* format : {"png", "jpg", "tif", "exr"}) {
         const auto path = folder.path() / (std::string("p.") + format);
         const auto encoded = encodeImage(*fileFormat(path), {&layer, 1}, {{"Software", "test"}}, {});
@@ -170,9 +184,7 @@ TEST_F(Errors, aFileCutOffAnywhereIsNoticed) {
                 try {
                     replaceFile(path, encoded);
                     _exit(0);
-                } catch (const Error& error) {
-                    _exit(static_cast<int>(error.code));
-                }
+                } catch (const Error& error) { _exit(static_cast<int>(error.code)); }
             }
             int status = 0;
             waitpid(child, &status, 0);
@@ -197,11 +209,15 @@ TEST_F(Errors, theSameInputGivesTheSameBytes) {
     };
     for (const char* format : {"exr", "png", "tif", "jpg"}) {
         const std::string file = std::string("a.") + format;
-        const std::string first = draw("render all.toml --set image.samples=5 --output " + file, "LP_NUM_THREADS=1", file);
+        const std::string first =
+            draw("render all.toml --set image.samples=5 --output " + file, "LP_NUM_THREADS=1", file);
         EXPECT_GT(first.size(), 500u);
-        for (const char* environment : {"LP_NUM_THREADS=2", "LP_NUM_THREADS=4", "LP_NUM_THREADS=0", "", "TZ=Asia/Tokyo LC_ALL=C", "HOME=/nonexistent"})
-            EXPECT_EQ(draw("render all.toml --set image.samples=5 --output " + file, environment, file), first) << format << " " << environment;
-        EXPECT_EQ(draw("render all.toml --threads 1 --set image.samples=5 --output " + file, "", file), first) << format << " --threads 1";
+        for (const char* environment : {"LP_NUM_THREADS=2", "LP_NUM_THREADS=4", "LP_NUM_THREADS=0", "",
+                 "TZ=Asia/Tokyo LC_ALL=C", "HOME=/nonexistent"})
+            EXPECT_EQ(draw("render all.toml --set image.samples=5 --output " + file, environment, file), first)
+                << format << " " << environment;
+        EXPECT_EQ(draw("render all.toml --threads 1 --set image.samples=5 --output " + file, "", file), first)
+            << format << " --threads 1";
     }
     // Alone, in a batch after another, and as one of several frames.
     const std::string alone = draw("render all.toml --output alone.exr", "", "alone.exr");

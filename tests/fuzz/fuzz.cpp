@@ -1,6 +1,8 @@
-// Fuzz targets for everything that reads text from strangers. One source, three programs: FUZZ_OBJ, FUZZ_MTL or FUZZ_CONFIG.
+// Fuzz targets for everything that reads text from strangers. One source, three programs: FUZZ_OBJ, FUZZ_MTL or
+// FUZZ_CONFIG.
 //
-// Built and run by tests/fuzz/run.sh with clang, AddressSanitizer and UndefinedBehaviorSanitizer. Errors are answers; crashes are not.
+// Built and run by tests/fuzz/run.sh with clang, AddressSanitizer and UndefinedBehaviorSanitizer. Errors are answers;
+// crashes are not.
 
 #include "config/document.h"
 #include "geometry/far.h"
@@ -29,7 +31,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.safe = size % 3 == 0;
         // Refinement is forty times slower when watched this closely: only as much of it as takes a second or two.
         const int levels = std::min(std::max(limn::levelsOfCreases(file.mesh.tags), 5), 10);
-        if (file.mesh.faceCount() << levels < 800) static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false, true}, "fuzz"));
+        if (file.mesh.faceCount() << levels < 800)
+            static_cast<void>(limn::subdivide(file.mesh, options, {true, true, false, true}, "fuzz"));
 #elif defined(FUZZ_MTL)
         std::vector<limn::MeshWarning> warnings;
         static_cast<void>(limn::parseMtl(text, ".", warnings));
@@ -38,12 +41,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         // A text that is no scene may be a config, and the other way round.
         try {
             static_cast<void>(limn::parseScene(document, "fuzz.toml"));
-        } catch (const limn::Errors&) {
-        }
+        } catch (const limn::Errors&) {}
         static_cast<void>(limn::parseRenderConfig(document, "fuzz.toml"));
 #endif
     } catch (const limn::Error&) {
-    } catch (const limn::Errors&) {
-    }
+    } catch (const limn::Errors&) {}
     return 0;
 }

@@ -18,7 +18,9 @@ std::string sheetObj(int n) {
     for (int y = 0; y <= n; ++y)
         for (int x = 0; x <= n; ++x) text += fmt::format("v -300 {} {}\n", 4.0 * y / n - 2, 4.0 * x / n - 2);
     for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) text += fmt::format("f {0} {1} {2} {3}\n", y * (n + 1) + x + 1, y * (n + 1) + x + 2, (y + 1) * (n + 1) + x + 2, (y + 1) * (n + 1) + x + 1);
+        for (int x = 0; x < n; ++x)
+            text += fmt::format("f {0} {1} {2} {3}\n", y * (n + 1) + x + 1, y * (n + 1) + x + 2,
+                (y + 1) * (n + 1) + x + 2, (y + 1) * (n + 1) + x + 1);
     return text;
 }
 
@@ -35,10 +37,14 @@ std::string bowlObj(double radius, int sides) {
     return kept;
 }
 
-struct Shot { const char* what; std::string camera; };
+struct Shot {
+    const char* what;
+    std::string camera;
+};
 
 TEST(Culling, changesNoBit) {
-    // Small scenes are drawn whole, those of many triangles culled. The two scenes differ by how finely a sheet is cut that no camera sees.
+    // Small scenes are drawn whole, those of many triangles culled. The two scenes differ by how finely a sheet is cut
+    // that no camera sees.
     const Shot shots[] = {
         {"from outside", cameraToml({3, 2, 6}, {0, 0, 0}, "fov = 40")},
         {"parallel rays", cameraToml({3, 2, 6}, {0, 0, 0}, "orthographic_height = 5")},
@@ -47,21 +53,31 @@ TEST(Culling, changesNoBit) {
         {"through a long lens", cameraToml({300, 200, 600}, {0.9, 0.1, 0.2}, "fov = 0.05")},
     };
     const std::string scene =
-        "[[mesh]]\nname = 'sphere'\nfile = 'sphere.obj'\n[[mesh]]\nname = 'bowl'\nfile = 'bowl.obj'\n[[mesh]]\nname = 'mixed'\nfile = 'mixed.obj'\n[[mesh]]\nname = 'sheet'\nfile = 'sheet.obj'\n"
-        "[[instance]]\nmesh = 'sphere'\n[[instance]]\nmesh = 'bowl'\ntranslate = [2, 0, 0]\nscale = [-1, 1.3, 0.7]\n[[instance]]\nmesh = 'bowl'\ntranslate = [-2, 0.5, 0]\nrotate = [20, 130, 0]\n"
+        "[[mesh]]\nname = 'sphere'\nfile = 'sphere.obj'\n[[mesh]]\nname = 'bowl'\nfile = 'bowl.obj'\n[[mesh]]\nname = "
+        "'mixed'\nfile = 'mixed.obj'\n[[mesh]]\nname = 'sheet'\nfile = 'sheet.obj'\n"
+        "[[instance]]\nmesh = 'sphere'\n[[instance]]\nmesh = 'bowl'\ntranslate = [2, 0, 0]\nscale = [-1, 1.3, "
+        "0.7]\n[[instance]]\nmesh = 'bowl'\ntranslate = [-2, 0.5, 0]\nrotate = [20, 130, 0]\n"
         "[[instance]]\nmesh = 'mixed'\ntranslate = [0, -3, 0]\n[[instance]]\nmesh = 'sheet'\n";
     for (const auto& shot : shots) {
-        const auto load = [&](int cuts) { return makeScene(scene + shot.camera, {{"sphere.obj", sphereObj(1, 120)}, {"bowl.obj", bowlObj(0.8, 90)}, {"mixed.obj", mixedObj()}, {"sheet.obj", sheetObj(cuts)}}); };
-        const LoadedScene few = load(1), many = load(190);   // 72 200 triangles
-        for (const char* image : {"samples = 1", "samples = 4", "samples = 1\ntile = 64", "samples = 1\nsize = [33, 21]"}) {
-            const std::string size = std::string(image).find("size = ") == std::string::npos ? "size = [220, 160]\n" : "";
+        const auto load = [&](int cuts) {
+            return makeScene(scene + shot.camera,
+                {{"sphere.obj", sphereObj(1, 120)}, {"bowl.obj", bowlObj(0.8, 90)}, {"mixed.obj", mixedObj()},
+                    {"sheet.obj", sheetObj(cuts)}});
+        };
+        const LoadedScene few = load(1), many = load(190);  // 72 200 triangles
+        for (const char* image :
+            {"samples = 1", "samples = 4", "samples = 1\ntile = 64", "samples = 1\nsize = [33, 21]"}) {
+            const std::string size =
+                std::string(image).find("size = ") == std::string::npos ? "size = [220, 160]\n" : "";
             const RenderConfig config = makeConfig("[image]\n" + size + image + "\n[shading]\ntechnique = 'lambert'\n[output]\naovs = ['beauty', 'depth', 'normal_geometric', 'object_id']\n");
             const Picture whole = draw(config, few), culled = draw(config, many);
             std::size_t seen = 0;
             for (const auto& layer : whole.frame.layers) {
                 const Image& other = culled.aov(layer.name);
                 ASSERT_EQ(layer.image.pixels.size(), other.pixels.size());
-                EXPECT_EQ(std::memcmp(layer.image.pixels.data(), other.pixels.data(), other.pixels.size() * sizeof(float)), 0) << shot.what << ": " << layer.name << ", " << image;
+                EXPECT_EQ(
+                    std::memcmp(layer.image.pixels.data(), other.pixels.data(), other.pixels.size() * sizeof(float)), 0)
+                    << shot.what << ": " << layer.name << ", " << image;
                 for (const float value : layer.image.pixels) seen += layer.name == "object_id" && value > 0;
             }
             EXPECT_GT(seen, whole.aov("object_id").pixels.size() / 10) << shot.what;
@@ -75,8 +91,10 @@ TEST(Culling, leavesOutWhatTurnsAwayAndWhatIsHidden) {
     constexpr int kRings = 64;
     for (int y = 0; y <= kRings; ++y)
         for (int x = 0; x <= 2 * kRings; ++x) {
-            const double rise = std::acos(-1.0) * (static_cast<double>(y) / kRings - 0.5), turn = std::acos(-1.0) * x / kRings;
-            mesh.positions.emplace_back(std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn));
+            const double rise = std::acos(-1.0) * (static_cast<double>(y) / kRings - 0.5),
+                         turn = std::acos(-1.0) * x / kRings;
+            mesh.positions.emplace_back(
+                std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn));
         }
     for (std::uint32_t y = 0; y < kRings; ++y)
         for (std::uint32_t x = 0; x < 2 * kRings; ++x) {
@@ -105,7 +123,9 @@ TEST(Culling, leavesOutWhatTurnsAwayAndWhatIsHidden) {
     EXPECT_GT(facing, mesh.triangleCount() / 8);
     for (const auto& part : chosen)
         for (std::size_t i = 0; i < part.indices.size(); i += 3) {
-            const glm::vec3 middle = (mesh.positions[part.indices[i]] + mesh.positions[part.indices[i + 1]] + mesh.positions[part.indices[i + 2]]) / 3.0f;
+            const glm::vec3 middle = (mesh.positions[part.indices[i]] + mesh.positions[part.indices[i + 1]]
+                                         + mesh.positions[part.indices[i + 2]])
+                / 3.0f;
             EXPECT_GT(middle.z, -0.05f);
         }
     for (auto& part : chosen) part.indices.clear();
@@ -118,7 +138,7 @@ TEST(Culling, leavesOutWhatTurnsAwayAndWhatIsHidden) {
     const std::size_t backs = count(chosen);
     EXPECT_GT(backs, mesh.triangleCount() / 8) << "nothing has been drawn that could hide them";
     chosen = first;
-    depths.values.assign(625, 0.5f);   // a wall through the sphere's middle
+    depths.values.assign(625, 0.5f);  // a wall through the sphere's middle
     for (auto& part : chosen) chooseBacks(view, source, depths, part);
     EXPECT_LT(count(chosen), backs / 8) << "only what touches the wall";
 }

@@ -16,10 +16,13 @@ namespace {
 constexpr int kSize = 120;
 
 /// Seen square on, 4 units high: a pixel is 1/30.
-const std::string kFront = fmt::format("[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 4\n");
+const std::string kFront =
+    fmt::format("[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 4\n");
 
 RenderConfig config(const std::string& aovs, const std::string& more = "", int samples = 1) {
-    return makeConfig(fmt::format("{}[image]\nsize = [{}, {}]\nsamples = {}\n[output]\naovs = [{}]\n", more.starts_with("accuracy") ? more : "", kSize, kSize, samples, aovs) + (more.starts_with("accuracy") ? "" : more));
+    return makeConfig(fmt::format("{}[image]\nsize = [{}, {}]\nsamples = {}\n[output]\naovs = [{}]\n",
+                          more.starts_with("accuracy") ? more : "", kSize, kSize, samples, aovs)
+        + (more.starts_with("accuracy") ? "" : more));
 }
 
 /// A triangle whose corners are red, green and blue.
@@ -37,7 +40,8 @@ TEST(VertexColours, areLinearBetweenTheCorners) {
                 const double blue = (at.y + 1.5) / 3, green = (at.x + 1.5 - 1.5 * blue) / 3;
                 const double expected[] = {1 - green - blue, green, blue};
                 // Half floats hold 1 to 1/2048; an encoded colour of 0 or 1 is exact.
-                for (int k = 0; k < 3; ++k) ASSERT_NEAR(p.aov("albedo").at(x, y)[k], expected[k], 1e-3) << accuracy << x << ' ' << y;
+                for (int k = 0; k < 3; ++k)
+                    ASSERT_NEAR(p.aov("albedo").at(x, y)[k], expected[k], 1e-3) << accuracy << x << ' ' << y;
                 ++seen;
             }
         EXPECT_GT(seen, 4000);
@@ -47,7 +51,11 @@ TEST(VertexColours, areLinearBetweenTheCorners) {
 TEST(VertexColours, tintTheMaterialThatWantsThem) {
     const std::string scene = kFront + "[[mesh]]\nname = 't'\nfile = 't.obj'\n[[material]]\nname = 'grey'\ncolor = '#bcbcbc'\n{}\n[[instance]]\nmesh = 't'\nmaterial = 'grey'\n";
     const std::string half = "v -9 -9 0 0.5 0.5 0.5\nv 9 -9 0 0.5 0.5 0.5\nv 0 9 0 0.5 0.5 0.5\nf 1 2 3\n";
-    const auto albedo = [&](const char* line) { return *draw(config("'albedo'"), makeScene(fmt::format(fmt::runtime(scene), line), {{"t.obj", half}})).aov("albedo").at(60, 60); };
+    const auto albedo = [&](const char* line) {
+        return *draw(config("'albedo'"), makeScene(fmt::format(fmt::runtime(scene), line), {{"t.obj", half}}))
+                    .aov("albedo")
+                    .at(60, 60);
+    };
     EXPECT_NEAR(albedo(""), srgbToLinear(188 / 255.0f) * srgbToLinear(0.5f), 1e-3);
     EXPECT_NEAR(albedo("vertex_colors = false"), srgbToLinear(188 / 255.0f), 1e-3);
 }
@@ -65,7 +73,8 @@ protected:
     /// A card two units wide in front of a wall; the card's material has this line.
     LoadedScene scene(const std::string& line, bool withCard = true, const std::string& camera = kFront) {
         replaceFile(folder_.path() / "wall.obj", quadObj({-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}));
-        replaceFile(folder_.path() / "card.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+        replaceFile(folder_.path() / "card.obj",
+            "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
         std::string toml = camera + "[[light]]\ndirection = [1, 0, -1]\nshadow = { resolution = 1024 }\n[[mesh]]\nname = 'wall'\nfile = 'wall.obj'\n[[mesh]]\nname = 'card'\nfile = 'card.obj'\n[[material]]\nname = 'card'\ncolor = '#ff0000'\n" + line + "\n[[instance]]\nmesh = 'wall'\n";
         if (withCard) toml += "[[instance]]\nmesh = 'card'\nmaterial = 'card'\n";
         replaceFile(folder_.path() / "scene.toml", toml);
@@ -74,30 +83,39 @@ protected:
     TemporaryFolder folder_;
 };
 
-const std::string kLooks = "[shading]\ntechnique = 'lambert'\n[ao]\ntechnique = 'ray_traced'\nradius = 2.0\n[[edges]]\ntechnique = 'depth_normal'\n";
+const std::string kLooks =
+    "[shading]\ntechnique = 'lambert'\n[ao]\ntechnique = 'ray_traced'\nradius = 2.0\n[[edges]]\ntechnique = "
+    "'depth_normal'\n";
 
 TEST_F(Holes, ofEverythingLeaveWhatLiesBehind) {
     mask("nothing.pgm", [](double, double) { return false; });
     const RenderConfig wanted = config("'beauty', 'depth', 'normal', 'ambient_occlusion', 'edges'", kLooks, 4);
     const Picture with = draw(wanted, scene("cutout = 'nothing.pgm'")), without = draw(wanted, scene("", false));
-    for (const char* aov : {"beauty", "depth", "normal", "ambient_occlusion", "edges"}) EXPECT_EQ(with.aov(aov).pixels, without.aov(aov).pixels) << aov;
+    for (const char* aov : {"beauty", "depth", "normal", "ambient_occlusion", "edges"})
+        EXPECT_EQ(with.aov(aov).pixels, without.aov(aov).pixels) << aov;
 }
 
 TEST_F(Holes, ofNothingChangeNothing) {
     mask("all.pgm", [](double, double) { return true; });
     const RenderConfig wanted = config("'beauty', 'depth', 'object_id', 'ambient_occlusion'", kLooks, 4);
     const Picture with = draw(wanted, scene("cutout = 'all.pgm'")), without = draw(wanted, scene(""));
-    for (const char* aov : {"beauty", "depth", "object_id", "ambient_occlusion"}) EXPECT_EQ(with.aov(aov).pixels, without.aov(aov).pixels) << aov;
+    for (const char* aov : {"beauty", "depth", "object_id", "ambient_occlusion"})
+        EXPECT_EQ(with.aov(aov).pixels, without.aov(aov).pixels) << aov;
 }
 
 TEST_F(Holes, haveTheAreaAndTheShadowOfTheirMask) {
-    // The left half of the card is there. With the light from the side at 45 degrees its shadow falls one unit to the right.
+    // The left half of the card is there. With the light from the side at 45 degrees its shadow falls one unit to the
+    // right.
     mask("left.pgm", [](double u, double) { return u < 0.5; });
     for (const char* accuracy : {"accuracy = 'exact'\n", "accuracy = 'fast'\n"}) {
         RenderConfig wanted = makeConfig(std::string(accuracy) + "[image]\nsize = [120, 120]\nsamples = 1\n[shading]\ntechnique = 'lambert'\nambient = 0\n[output]\naovs = ['depth', 'shade']\n");
         const Picture p = draw(wanted, scene("cutout = 'left.pgm'"));
-        const auto depthAt = [&](double x, double y) { return *p.aov("depth").at(static_cast<int>((x + 2) * 30), static_cast<int>((2 - y) * 30)); };
-        const auto lightAt = [&](double x, double y) { return p.aov("shade").at(static_cast<int>((x + 2) * 30), static_cast<int>((2 - y) * 30))[1]; };
+        const auto depthAt = [&](double x, double y) {
+            return *p.aov("depth").at(static_cast<int>((x + 2) * 30), static_cast<int>((2 - y) * 30));
+        };
+        const auto lightAt = [&](double x, double y) {
+            return p.aov("shade").at(static_cast<int>((x + 2) * 30), static_cast<int>((2 - y) * 30))[1];
+        };
         EXPECT_NEAR(depthAt(-0.5, 0), 5, 1e-4) << accuracy;
         EXPECT_NEAR(depthAt(0.5, 0), 6, 1e-4) << accuracy;
         // Bilinear alpha is one half exactly between the texels: half of the card, to a column of pixels.
@@ -110,15 +128,21 @@ TEST_F(Holes, haveTheAreaAndTheShadowOfTheirMask) {
 }
 
 TEST_F(Holes, keepTheirShareInTheDistance) {
-    // Leaves of eight texels, and dots of two that soon melt into one grey: as much of the card is there from far as from near.
+    // Leaves of eight texels, and dots of two that soon melt into one grey: as much of the card is there from far as
+    // from near.
     const std::pair<const char*, std::function<bool(double, double)>> masks[] = {
-        {"leaves.pgm", [](double u, double v) { return std::hypot(std::fmod(u * 4, 1) - 0.5, std::fmod(v * 4, 1) - 0.5) < 0.35; }},
-        {"dots.pgm", [](double u, double v) { return std::hypot(std::fmod(u * 8, 1) - 0.5, std::fmod(v * 8, 1) - 0.5) < 0.178; }}};
+        {"leaves.pgm",
+            [](double u, double v) { return std::hypot(std::fmod(u * 4, 1) - 0.5, std::fmod(v * 4, 1) - 0.5) < 0.35; }},
+        {"dots.pgm", [](double u, double v) {
+             return std::hypot(std::fmod(u * 8, 1) - 0.5, std::fmod(v * 8, 1) - 0.5) < 0.178;
+         }}};
     for (const auto& [name, isSolid] : masks) {
         mask(name, isSolid);
         const auto share = [&](double height, double side) {
-            const std::string camera = fmt::format("[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = {}\n", height);
-            const Picture p = draw(config("'shade'", "[shading]\ntechnique = 'flat'\n", 16), scene(fmt::format("cutout = '{}'", name), true, camera));
+            const std::string camera = fmt::format(
+                "[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = {}\n", height);
+            const Picture p = draw(config("'shade'", "[shading]\ntechnique = 'flat'\n", 16),
+                scene(fmt::format("cutout = '{}'", name), true, camera));
             const float wall = p.aov("shade").at(30, 60)[1];
             double solid = 0;
             for (int y = 0; y < kSize; ++y)
@@ -127,20 +151,24 @@ TEST_F(Holes, keepTheirShareInTheDistance) {
         };
         const double near = share(4.4, 60 / 1.1), far = share(16, 15);
         EXPECT_GT(near, 0.03) << name;
-        // 16 samples of each of 225 pixels meet a share of 0.06 about 200 times: 15 % are two standard deviations of chance, and grids do better.
+        // 16 samples of each of 225 pixels meet a share of 0.06 about 200 times: 15 % are two standard deviations of
+        // chance, and grids do better.
         EXPECT_NEAR(far / near, 1, 0.15) << name;
     }
 }
 
 TEST_F(Holes, haveLinesAlongThem) {
-    // A disc of radius 0.6: its outline is a circle of that radius within a tenth of a pixel on the mean, from one sample.
+    // A disc of radius 0.6: its outline is a circle of that radius within a tenth of a pixel on the mean, from one
+    // sample.
     mask("disc.pgm", [](double u, double v) { return std::hypot(u - 0.5, v - 0.5) < 0.3; });
-    const Picture p = draw(config("'edges'", "[[edges]]\ntechnique = 'depth_normal'\nwidth = '1px'\n"), scene("cutout = 'disc.pgm'"));
+    const Picture p =
+        draw(config("'edges'", "[[edges]]\ntechnique = 'depth_normal'\nwidth = '1px'\n"), scene("cutout = 'disc.pgm'"));
     double weight = 0, radius = 0;
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
             const double alpha = static_cast<double>(p.aov("edges").at(x, y)[3]);
-            weight += alpha, radius += alpha * std::hypot(x + 0.5 - 60, y + 0.5 - 60);
+            weight += alpha;
+            radius += alpha * std::hypot(x + 0.5 - 60, y + 0.5 - 60);
         }
     EXPECT_NEAR(radius / weight, 18, 0.1);
     EXPECT_NEAR(weight, 2 * 3.14159265 * 18, 8) << "once around; texels make its way a little longer";

@@ -11,8 +11,12 @@
 namespace limn::test {
 namespace {
 
-const std::string kScene = "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, -1]\n[[light]]\ndirection = [-1, -2, -1]\nshadow = { resolution = 512 }\n";
-const std::string kAll = "[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\nfilter = { technique = 'gaussian' }\n[[edges]]\ntechnique = 'depth_normal'\ncolor = '#204060'\nopacity = 0.6\n";
+const std::string kScene =
+    "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, "
+    "-1]\n[[light]]\ndirection = [-1, -2, -1]\nshadow = { resolution = 512 }\n";
+const std::string kAll =
+    "[shading]\ntechnique = 'toon'\n[ao]\ntechnique = 'toon_ssao'\nfilter = { technique = 'gaussian' "
+    "}\n[[edges]]\ntechnique = 'depth_normal'\ncolor = '#204060'\nopacity = 0.6\n";
 
 LoadedScene mixedScene() { return makeScene(kScene, {{"m.obj", mixedObj()}}); }
 
@@ -20,7 +24,8 @@ TEST(Picture, transparentPicturesCompositeToOpaqueOnes) {
     const LoadedScene scene = mixedScene();
     const Picture clear = draw(makeConfig("[image]\nsize = [120, 80]\nbackground = 'transparent'\n" + kAll), scene);
     for (const char* background : {"#000000", "#ffffff", "#c04080"}) {
-        const Picture opaque = draw(makeConfig(fmt::format("[image]\nsize = [120, 80]\nbackground = '{}'\n", background) + kAll), scene);
+        const Picture opaque =
+            draw(makeConfig(fmt::format("[image]\nsize = [120, 80]\nbackground = '{}'\n", background) + kAll), scene);
         const Color color = *parseHexColor(background);
         const float rgb[] = {color.r, color.g, color.b};
         float worst = 0;
@@ -43,14 +48,16 @@ TEST(Picture, aCropIsThatPartOfTheWhole) {
     ASSERT_EQ(part.aov("beauty").width, 40);
     for (int y = 0; y < 23; ++y)
         for (int x = 0; x < 40; ++x)
-            for (int c = 0; c < 4; ++c) ASSERT_EQ(part.aov("beauty").at(x, y)[c], whole.aov("beauty").at(31 + x, 17 + y)[c]);
+            for (int c = 0; c < 4; ++c)
+                ASSERT_EQ(part.aov("beauty").at(x, y)[c], whole.aov("beauty").at(31 + x, 17 + y)[c]);
 }
 
 TEST(Picture, samplesAverageToTheSamePicture) {
     // However samples are split between a finer raster and sub-frames, more of them approach one picture.
     const LoadedScene scene = mixedScene();
     const auto mean = [&](int samples) {
-        const Picture p = draw(makeConfig(fmt::format("[image]\nsize = [96, 64]\nsamples = {}\n", samples) + kAll), scene);
+        const Picture p =
+            draw(makeConfig(fmt::format("[image]\nsize = [96, 64]\nsamples = {}\n", samples) + kAll), scene);
         return p.aov("beauty").pixels;
     };
     const auto truth = mean(64);
@@ -78,14 +85,18 @@ TEST(Picture, sampleSplitIsExactAndFits) {
 TEST(Picture, dataIsTakenAtPixelCentres) {
     const LoadedScene scene = mixedScene();
     const std::string aovs = "[output]\naovs = ['beauty', 'depth', 'normal', 'object_id', 'material_id', 'position']\n";
-    const Picture one = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 1\n" + aovs), scene), many = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 8\n" + aovs), scene);
-    for (const char* name : {"depth", "normal", "object_id", "material_id", "position"}) EXPECT_EQ(one.aov(name).pixels, many.aov(name).pixels) << name;
+    const Picture one = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 1\n" + aovs), scene),
+                  many = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 8\n" + aovs), scene);
+    for (const char* name : {"depth", "normal", "object_id", "material_id", "position"})
+        EXPECT_EQ(one.aov(name).pixels, many.aov(name).pixels) << name;
     EXPECT_NE(one.aov("beauty").pixels, many.aov("beauty").pixels);
 }
 
 TEST(Picture, positionsLieWhereDepthSays) {
     const LoadedScene scene = mixedScene();
-    const Picture p = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 1\n[output]\naovs = ['depth', 'position', 'normal_geometric', 'normal']\n"), scene);
+    const Picture p = draw(makeConfig("[image]\nsize = [96, 64]\nsamples = 1\n[output]\naovs = ['depth', 'position', "
+                                      "'normal_geometric', 'normal']\n"),
+        scene);
     const glm::dvec3 eye(3, 4, 6), forward = glm::normalize(glm::dvec3(0, 0.5, -1) - eye);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 96; ++x) {
@@ -101,46 +112,73 @@ TEST(Picture, positionsLieWhereDepthSays) {
 }
 
 TEST(Picture, mirroredAndShearedInstancesStayRight) {
-    // A sphere mirrored in x and one turned half a circle about y are the same surface: the same normals, the same light.
-    const std::string camera = "[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov = 40\n[[light]]\ndirection = [-1, -1, -2]\n[[mesh]]\nname = 's'\nfile = 's.obj'\n[[instance]]\nmesh = 's'\n";
+    // A sphere mirrored in x and one turned half a circle about y are the same surface: the same normals, the same
+    // light.
+    const std::string camera =
+        "[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov = 40\n[[light]]\ndirection = [-1, -1, "
+        "-2]\n[[mesh]]\nname = 's'\nfile = 's.obj'\n[[instance]]\nmesh = 's'\n";
     const std::vector<std::pair<std::string, std::string>> sphere{{"s.obj", sphereObj(1, 64)}};
-    const RenderConfig config = makeConfig("[image]\nsize = [80, 80]\nsamples = 1\n[shading]\ntechnique = 'toon'\n[output]\naovs = ['normal', 'shade']\n");
-    const Picture plain = draw(config, makeScene(camera, sphere)), mirrored = draw(config, makeScene(camera + "scale = [-1, 1, 1]\n", sphere));
+    const RenderConfig config = makeConfig(
+        "[image]\nsize = [80, 80]\nsamples = 1\n[shading]\ntechnique = 'toon'\n[output]\naovs = ['normal', 'shade']\n");
+    const Picture plain = draw(config, makeScene(camera, sphere)),
+                  mirrored = draw(config, makeScene(camera + "scale = [-1, 1, 1]\n", sphere));
     double worst = 0;
-    for (std::size_t i = 0; i < plain.aov("normal").pixels.size(); ++i) worst = std::max(worst, static_cast<double>(std::abs(plain.aov("normal").pixels[i] - mirrored.aov("normal").pixels[i])));
+    for (std::size_t i = 0; i < plain.aov("normal").pixels.size(); ++i)
+        worst = std::max(
+            worst, static_cast<double>(std::abs(plain.aov("normal").pixels[i] - mirrored.aov("normal").pixels[i])));
     EXPECT_LT(worst, 0.05) << "up to how the facets fall";
     // A sheared unit cube: its top face's normal must follow the inverse transpose.
-    const Picture sheared = draw(makeConfig("[image]\nsize = [40, 40]\nsamples = 1\n[output]\naovs = ['normal', 'normal_geometric']\n"),
-                                 makeScene("[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov = 10\n[[mesh]]\nname = 'b'\nfile = 'b.obj'\n[[instance]]\nmesh = 'b'\nmatrix = [1, 0, 0, 0,  0, 1, 0, 0,  0.5, 0, 1, 0,  0, 0, 0, 1]\n", {{"b.obj", boxObj({-1, -1, -1}, {1, 1, 1})}}));
+    const Picture sheared = draw(
+        makeConfig("[image]\nsize = [40, 40]\nsamples = 1\n[output]\naovs = ['normal', 'normal_geometric']\n"),
+        makeScene("[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nfov = 10\n[[mesh]]\nname = 'b'\nfile = "
+                  "'b.obj'\n[[instance]]\nmesh = 'b'\nmatrix = [1, 0, 0, 0,  0, 1, 0, 0,  0.5, 0, 1, 0,  0, 0, 0, 1]\n",
+            {{"b.obj", boxObj({-1, -1, -1}, {1, 1, 1})}}));
     const glm::dvec3 expected = glm::normalize(glm::dvec3(-0.5, 0, 1));
     for (const char* name : {"normal", "normal_geometric"})
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(sheared.aov(name).at(20, 20)[k], expected[k], 1e-6) << name;
 }
 
 TEST(Picture, aFlattenedInstanceIsDrawn) {
-    const Picture p = draw(makeConfig("[image]\nsize = [40, 40]\nsamples = 1\n[output]\naovs = ['object_id', 'depth', 'normal']\n"),
-                           makeScene("[[camera]]\nposition = [0, 3, 0.5]\nlook_at = [0, 0, 0]\nfov = 40\n[[mesh]]\nname = 'b'\nfile = 'b.obj'\n[[instance]]\nmesh = 'b'\nscale = [1, 0, 1]\n", {{"b.obj", boxObj({-1, -1, -1}, {1, 1, 1})}}));
+    const Picture p =
+        draw(makeConfig("[image]\nsize = [40, 40]\nsamples = 1\n[output]\naovs = ['object_id', 'depth', 'normal']\n"),
+            makeScene("[[camera]]\nposition = [0, 3, 0.5]\nlook_at = [0, 0, 0]\nfov = 40\n[[mesh]]\nname = 'b'\nfile = "
+                      "'b.obj'\n[[instance]]\nmesh = 'b'\nscale = [1, 0, 1]\n",
+                {{"b.obj", boxObj({-1, -1, -1}, {1, 1, 1})}}));
     EXPECT_EQ(*p.aov("object_id").at(20, 20), 1);
 }
 
 TEST(Picture, shadowsFallWhereTheyMust) {
     // A square lid 1 above the floor, the sun 45 degrees from the side: its shadow lies 1 further along.
-    const std::string scene = "[[mesh]]\nname = 'f'\nfile = 'f.obj'\n[[mesh]]\nname = 'l'\nfile = 'l.obj'\n[[camera]]\nposition = [0, 10, 0]\nlook_at = [0, 0, 0]\nup = [0, 0, -1]\northographic_height = 8\n[[light]]\nkind = '{}'\n{}\nshadow = {{ resolution = 1024 }}\n";
-    const std::vector<std::pair<std::string, std::string>> files{{"f.obj", quadObj({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4})}, {"l.obj", quadObj({-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1})}};
-    const RenderConfig config = makeConfig("[image]\nsize = [160, 160]\nsamples = 1\n[shading]\ntechnique = 'toon'\nbands = 2\nambient = 0\nextra_ambient = 0\n[output]\naovs = ['shade']\n");
-    const auto lit = [](const Picture& p, double x, double z) { return *p.aov("shade").at(static_cast<int>((x + 4) * 20), static_cast<int>((z + 4) * 20)) > 0.2f; };
-    const Picture sun = draw(config, makeScene(fmt::format(fmt::runtime(scene), "sun", "direction = [1, -1, 0]\nintensity = 1.3"), files));
+    const std::string scene =
+        "[[mesh]]\nname = 'f'\nfile = 'f.obj'\n[[mesh]]\nname = 'l'\nfile = 'l.obj'\n[[camera]]\nposition = [0, 10, "
+        "0]\nlook_at = [0, 0, 0]\nup = [0, 0, -1]\northographic_height = 8\n[[light]]\nkind = '{}'\n{}\nshadow = {{ "
+        "resolution = 1024 }}\n";
+    const std::vector<std::pair<std::string, std::string>> files{
+        {"f.obj", quadObj({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4})},
+        {"l.obj", quadObj({-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1})}};
+    const RenderConfig config = makeConfig(
+        "[image]\nsize = [160, 160]\nsamples = 1\n[shading]\ntechnique = 'toon'\nbands = 2\nambient = 0\nextra_ambient "
+        "= 0\n[output]\naovs = ['shade']\n");
+    const auto lit = [](const Picture& p, double x, double z) {
+        return *p.aov("shade").at(static_cast<int>((x + 4) * 20), static_cast<int>((z + 4) * 20)) > 0.2f;
+    };
+    const Picture sun = draw(
+        config, makeScene(fmt::format(fmt::runtime(scene), "sun", "direction = [1, -1, 0]\nintensity = 1.3"), files));
     EXPECT_FALSE(lit(sun, 1.5, 0));
     EXPECT_FALSE(lit(sun, 1.9, 0.9));
     EXPECT_TRUE(lit(sun, 2.1, 0));
     EXPECT_TRUE(lit(sun, 1.5, 1.1));
     EXPECT_TRUE(lit(sun, -2, 0));
     // From a lamp 2 above the floor the lid's shadow is twice as large.
-    const Picture lamp = draw(config, makeScene(fmt::format(fmt::runtime(scene), "point", "position = [0, 2, 0]\nintensity = 4"), files));
+    const Picture lamp = draw(
+        config, makeScene(fmt::format(fmt::runtime(scene), "point", "position = [0, 2, 0]\nintensity = 4"), files));
     EXPECT_FALSE(lit(lamp, 1.8, 1.8));
     EXPECT_TRUE(lit(lamp, 2.3, 0));
     EXPECT_TRUE(lit(lamp, 0, -2.3));
-    const Picture spot = draw(config, makeScene(fmt::format(fmt::runtime(scene), "spot", "position = [0, 2, 0]\ndirection = [0, -1, 0]\nangle = 120\nintensity = 4"), files));
+    const Picture spot = draw(config,
+        makeScene(fmt::format(fmt::runtime(scene), "spot",
+                      "position = [0, 2, 0]\ndirection = [0, -1, 0]\nangle = 120\nintensity = 4"),
+            files));
     EXPECT_FALSE(lit(spot, 1.8, 1.8));
     EXPECT_TRUE(lit(spot, 2.4, 0));
     EXPECT_FALSE(lit(spot, 3.8, 0)) << "outside the cone";
@@ -149,7 +187,11 @@ TEST(Picture, shadowsFallWhereTheyMust) {
 TEST(Picture, shiftMovesThePictureAndKeepsVerticalsUpright) {
     const std::vector<std::pair<std::string, std::string>> files{{"b.obj", boxObj({-1, -1, -1}, {1, 1, 1})}};
     const auto centre = [&](const char* shift) {
-        const Picture p = draw(makeConfig("[image]\nsize = [200, 100]\nsamples = 1\n[output]\naovs = ['object_id']\n"), makeScene(fmt::format("[[camera]]\nposition = [0, 0, 8]\nlook_at = [0, 0, 0]\nfov = 60\nshift = {}\n[[mesh]]\nname = 'b'\nfile = 'b.obj'\n", shift), files));
+        const Picture p = draw(makeConfig("[image]\nsize = [200, 100]\nsamples = 1\n[output]\naovs = ['object_id']\n"),
+            makeScene(fmt::format("[[camera]]\nposition = [0, 0, 8]\nlook_at = [0, 0, 0]\nfov = 60\nshift = "
+                                  "{}\n[[mesh]]\nname = 'b'\nfile = 'b.obj'\n",
+                          shift),
+                files));
         glm::dvec3 sum(0);
         for (int y = 0; y < 100; ++y)
             for (int x = 0; x < 200; ++x)
@@ -162,8 +204,11 @@ TEST(Picture, shiftMovesThePictureAndKeepsVerticalsUpright) {
 
 TEST(Picture, exactAndFastAgree) {
     const LoadedScene scene = mixedScene();
-    const std::string rest = "[image]\nsize = [160, 120]\nsamples = 1\n[output]\naovs = ['depth', 'object_id', 'normal', 'normal_geometric', 'albedo', 'position', 'material_id']\n";
-    const Picture exact = draw(makeConfig("accuracy = 'exact'\n" + rest), scene), fast = draw(makeConfig("accuracy = 'fast'\n" + rest), scene);
+    const std::string rest =
+        "[image]\nsize = [160, 120]\nsamples = 1\n[output]\naovs = ['depth', 'object_id', 'normal', "
+        "'normal_geometric', 'albedo', 'position', 'material_id']\n";
+    const Picture exact = draw(makeConfig("accuracy = 'exact'\n" + rest), scene),
+                  fast = draw(makeConfig("accuracy = 'fast'\n" + rest), scene);
     int differ = 0;
     for (std::size_t i = 0; i < exact.aov("object_id").pixels.size(); ++i) {
         const bool same = exact.aov("object_id").pixels[i] == fast.aov("object_id").pixels[i];

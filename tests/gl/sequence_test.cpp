@@ -11,10 +11,14 @@ namespace {
 
 TEST(Sequence, drawsTheFileOfEachFrame) {
     const TemporaryFolder temporary;
-    const std::filesystem::path folder = temporary.path() / "job#3";   // a sign in a folder's name means nothing
+    const std::filesystem::path folder = temporary.path() / "job#3";  // a sign in a folder's name means nothing
     std::filesystem::create_directory(folder);
-    for (const int frame : {2, 3, 4}) replaceFile(folder / fmt::format("wall_{:03}.obj", frame), quadObj({-9, -9, -frame}, {9, -9, -frame}, {9, 9, -frame}, {-9, 9, -frame}));
-    const std::string scene = "[animation]\nframes = \"{}\"\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = 4\n[[mesh]]\nname = 'wall'\nfile = 'wall_###.obj'\n";
+    for (const int frame : {2, 3, 4})
+        replaceFile(folder / fmt::format("wall_{:03}.obj", frame),
+            quadObj({-9, -9, -frame}, {9, -9, -frame}, {9, 9, -frame}, {-9, 9, -frame}));
+    const std::string scene =
+        "[animation]\nframes = \"{}\"\n[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = "
+        "4\n[[mesh]]\nname = 'wall'\nfile = 'wall_###.obj'\n";
     replaceFile(folder / "scene.toml", fmt::format(fmt::runtime(scene), "2-4"));
     const RenderConfig config = makeConfig("[image]\nsize = [16, 16]\nsamples = 1\n[output]\naovs = ['depth']\n");
     LoadedScene loaded = loadScene(folder / "scene.toml");
@@ -42,7 +46,8 @@ TEST(Sequence, drawsTheFileOfEachFrame) {
     } catch (const Errors& errors) {
         ASSERT_EQ(errors.list.size(), 1u);
         EXPECT_EQ(errors.list[0].code, ExitCode::missingInput);
-        EXPECT_NE(errors.list[0].problem.find("wall_001.obj' does not exist, nor do 2 more"), std::string::npos) << errors.list[0].problem;
+        EXPECT_NE(errors.list[0].problem.find("wall_001.obj' does not exist, nor do 2 more"), std::string::npos)
+            << errors.list[0].problem;
     }
 }
 

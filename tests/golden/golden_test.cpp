@@ -1,4 +1,5 @@
-// One picture, kept. It must match, and it must *not* match when a parameter moves by 2 %: a golden that everything passes shows nothing.
+// One picture, kept. It must match, and it must *not* match when a parameter moves by 2 %: a golden that everything
+// passes shows nothing.
 
 #include "render/frame_files.h"
 #include "support/bench.h"
@@ -30,7 +31,8 @@ Difference compare(const Image& a, const Image& b) {
 RenderedFrame drawRoom(const std::vector<std::string>& settings, const LoadedScene& scene) {
     const std::filesystem::path file = std::filesystem::path(LIMN_SOURCE_DIR) / "render_configs/figure1_both.toml";
     ConfigOverrides overrides;
-    overrides.settings = {"image.size=[320,180]", "image.samples=4", "output.aovs=[\"beauty\"]", "output.path=\"golden.exr\""};
+    overrides.settings = {
+        "image.size=[320,180]", "image.samples=4", "output.aovs=[\"beauty\"]", "output.path=\"golden.exr\""};
     overrides.settings.insert(overrides.settings.end(), settings.begin(), settings.end());
     return renderer().render(readRenderConfig(file, overrides), scene, 1, {});
 }
@@ -42,8 +44,8 @@ TEST(Golden, theRoom) {
     if (std::getenv("LIMN_UPDATE_GOLDEN")) writeFrame(now, golden, {});
     const Image kept = readImage(golden);
     ASSERT_EQ(kept.width, 320);
-    // Other CPUs and drivers round differently: a pixel in a thousand may fall on the other side of a band or a line. The measured
-    // sensitivities below are each at least twice this.
+    // Other CPUs and drivers round differently: a pixel in a thousand may fall on the other side of a band or a line.
+    // The measured sensitivities below are each at least twice this.
     constexpr double kTolerance = 0.001;
     EXPECT_LT(compare(now.layers[0].image, kept).share, kTolerance);
 
@@ -54,7 +56,8 @@ TEST(Golden, theRoom) {
         {"width of the lines", {"edges.width=2.04px"}},
         {"opacity of the lines", {"edges.opacity=0.98"}},
     };
-    for (const auto& [what, settings] : moved) EXPECT_GT(compare(drawRoom(settings, scene).layers[0].image, kept).share, 2 * kTolerance) << what;
+    for (const auto& [what, settings] : moved)
+        EXPECT_GT(compare(drawRoom(settings, scene).layers[0].image, kept).share, 2 * kTolerance) << what;
     LoadedScene turned = loadScene(std::filesystem::path(LIMN_SOURCE_DIR) / "scenes/room/scene.toml");
     turned.scene.lights.front().base.direction.x *= 1.02;
     EXPECT_GT(compare(drawRoom({}, turned).layers[0].image, kept).share, 2 * kTolerance) << "direction of the sun";

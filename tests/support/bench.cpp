@@ -31,7 +31,9 @@ LoadedScene makeScene(const std::string& toml, const std::vector<std::pair<std::
     return loadScene(folder.path() / "scene.toml");
 }
 
-RenderConfig makeConfig(const std::string& toml) { return parseRenderConfig(parseDocument("scene = \"/dev/null\"\n" + toml, "test.toml"), "test.toml"); }
+RenderConfig makeConfig(const std::string& toml) {
+    return parseRenderConfig(parseDocument("scene = \"/dev/null\"\n" + toml, "test.toml"), "test.toml");
+}
 
 const Image& Picture::aov(const std::string& name) const {
     for (const auto& layer : frame.layers)
@@ -48,8 +50,10 @@ Picture draw(const RenderConfig& config, const LoadedScene& scene, const RenderO
 
 std::string toml(const glm::dvec3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x, v.y, v.z); }
 
-std::string cameraToml(const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up) {
-    return fmt::format("[[camera]]\nposition = {}\nlook_at = {}\nup = {}\n{}\n", toml(position), toml(lookAt), toml(up), lens);
+std::string cameraToml(
+    const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up) {
+    return fmt::format(
+        "[[camera]]\nposition = {}\nlook_at = {}\nup = {}\n{}\n", toml(position), toml(lookAt), toml(up), lens);
 }
 
 namespace {
@@ -57,16 +61,22 @@ namespace {
 std::string vertex(const glm::dvec3& p) { return fmt::format("v {:.17g} {:.17g} {:.17g}\n", p.x, p.y, p.z); }
 
 /// Collects OBJ text with indices relative to the end, so that pieces can be put one after another.
-std::string boxFaces() { return "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n"; }
+std::string boxFaces() {
+    return "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n";
+}
 
 }  // namespace
 
-std::string quadObj(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) { return vertex(a) + vertex(b) + vertex(c) + vertex(d) + "f -4 -3 -2 -1\n"; }
+std::string quadObj(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+    return vertex(a) + vertex(b) + vertex(c) + vertex(d) + "f -4 -3 -2 -1\n";
+}
 
 std::string boxObj(const glm::dvec3& lo, const glm::dvec3& hi) {
     std::string text;
     for (const double z : {lo.z, hi.z})
-        for (const auto& [x, y] : {std::pair(lo.x, lo.y), std::pair(hi.x, lo.y), std::pair(hi.x, hi.y), std::pair(lo.x, hi.y)}) text += vertex({x, y, z});
+        for (const auto& [x, y] :
+            {std::pair(lo.x, lo.y), std::pair(hi.x, lo.y), std::pair(hi.x, hi.y), std::pair(lo.x, hi.y)})
+            text += vertex({x, y, z});
     return text + boxFaces();
 }
 
@@ -76,7 +86,8 @@ std::string sphereObj(double radius, int sides) {
     for (int r = 0; r <= rings; ++r)
         for (int s = 0; s < sides; ++s) {
             const double theta = std::acos(-1.0) * r / rings, phi = 2 * std::acos(-1.0) * s / sides;
-            text += vertex(radius * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)));
+            text += vertex(radius
+                * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)));
         }
     const int count = (rings + 1) * sides;
     for (int r = 0; r < rings; ++r)
@@ -91,14 +102,17 @@ std::string sphereObj(double radius, int sides) {
 std::string mixedObj(const glm::dvec3& offset, double scale) {
     const auto place = [&](glm::dvec3 p) { return (p + offset) * scale; };
     std::string text;
-    const auto box = [&](const char* name, glm::dvec3 lo, glm::dvec3 hi) { text += fmt::format("o {}\n", name) + boxObj(place(lo), place(hi)); };
+    const auto box = [&](const char* name, glm::dvec3 lo, glm::dvec3 hi) {
+        text += fmt::format("o {}\n", name) + boxObj(place(lo), place(hi));
+    };
     text += "o floor\n" + quadObj(place({-6, 0, 6}), place({6, 0, 6}), place({6, 0, -6}), place({-6, 0, -6}));
     text += "o wall\n" + quadObj(place({-6, 0, -4}), place({6, 0, -4}), place({6, 5, -4}), place({-6, 5, -4}));
     box("box", {-2, 0, -2}, {-0.75, 1.25, -0.5});
     box("slab", {0.5, 0.125, -1}, {2.5, 0.25, 0.5});
     box("step", {-0.5, 0, 0.5}, {0.25, 0.0625, 1.5});
     text += "o card\n" + quadObj(place({1, 0.5, -3}), place({2.5, 0.5, -3}), place({2.5, 2, -3}), place({1, 2, -3}));
-    for (int i = 0; i < 6; ++i) box("wire", {-3.5 + i * 0.25, 0, -3.25}, {-3.5 + 1.0 / 128 + i * 0.25, 3, -3.25 + 1.0 / 128});
+    for (int i = 0; i < 6; ++i)
+        box("wire", {-3.5 + i * 0.25, 0, -3.25}, {-3.5 + 1.0 / 128 + i * 0.25, 3, -3.25 + 1.0 / 128});
     text += "o sphere\n";
     const double r = 0.75;
     std::string sphere;
@@ -107,12 +121,14 @@ std::string mixedObj(const glm::dvec3& offset, double scale) {
             const double theta = std::acos(-1.0) * ring / 16, phi = 2 * std::acos(-1.0) * s / 32;
             // Rounded to 2^-20, so that moving the scene by whole numbers moves it exactly.
             const auto round = [](double x) { return std::round(x * 1048576) / 1048576; };
-            sphere += vertex(place({1.75 + round(r * std::sin(theta) * std::cos(phi)), 1 + round(r * std::cos(theta)), -1.5 - round(r * std::sin(theta) * std::sin(phi))}));
+            sphere += vertex(place({1.75 + round(r * std::sin(theta) * std::cos(phi)), 1 + round(r * std::cos(theta)),
+                -1.5 - round(r * std::sin(theta) * std::sin(phi))}));
         }
     for (int ring = 0; ring < 16; ++ring)
         for (int s = 0; s < 32; ++s) {
             const auto index = [&](int q, int side) { return q * 32 + side % 32 - 17 * 32; };
-            sphere += fmt::format("f {} {} {} {}\n", index(ring, s), index(ring + 1, s), index(ring + 1, s + 1), index(ring, s + 1));
+            sphere += fmt::format(
+                "f {} {} {} {}\n", index(ring, s), index(ring + 1, s), index(ring + 1, s + 1), index(ring, s + 1));
         }
     return text + sphere;
 }
@@ -129,7 +145,8 @@ TemporaryFolder::~TemporaryFolder() {
 RunResult runLimn(const std::string& arguments, const std::filesystem::path& folder, const std::string& environment) {
     const TemporaryFolder output;
     const auto out = output.path() / "out", err = output.path() / "err";
-    const std::string command = fmt::format("cd '{}' && {} LIMN_GL_DEBUG=1 timeout 300 '{}' {} >'{}' 2>'{}' </dev/null", folder.string(), environment, LIMN_PROGRAM, arguments, out.string(), err.string());
+    const std::string command = fmt::format("cd '{}' && {} LIMN_GL_DEBUG=1 timeout 300 '{}' {} >'{}' 2>'{}' </dev/null",
+        folder.string(), environment, LIMN_PROGRAM, arguments, out.string(), err.string());
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readFile(out), readFile(err)};
 }

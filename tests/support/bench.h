@@ -1,4 +1,5 @@
-// A whole pipeline for tests: a config and a scene from text, OBJ meshes from text, pictures in memory. Everything is the real thing.
+// A whole pipeline for tests: a config and a scene from text, OBJ meshes from text, pictures in memory. Everything is
+// the real thing.
 #pragma once
 
 #include "render/renderer.h"
@@ -34,7 +35,8 @@ std::string boxObj(const glm::dvec3& lo, const glm::dvec3& hi);
 std::string mixedObj(const glm::dvec3& offset = glm::dvec3(0), double scale = 1);
 
 /// A [[camera]]; `lens` is its line of fov, focal_length or orthographic_height.
-std::string cameraToml(const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up = {0, 1, 0});
+std::string cameraToml(
+    const glm::dvec3& position, const glm::dvec3& lookAt, const std::string& lens, const glm::dvec3& up = {0, 1, 0});
 
 /// Numbers in full, as TOML: "[1, 2, 3]".
 std::string toml(const glm::dvec3& v);
@@ -56,6 +58,7 @@ struct RunResult {
     std::string out, err;
 };
 /// Runs the built limn through the shell, in `folder`, with `environment` ("A=1 B=2") before it.
-RunResult runLimn(const std::string& arguments, const std::filesystem::path& folder = ".", const std::string& environment = "");
+RunResult runLimn(
+    const std::string& arguments, const std::filesystem::path& folder = ".", const std::string& environment = "");
 
 }  // namespace limn::test

@@ -1,4 +1,5 @@
-// Dependencies point one way: base → {image, config, scene, gl} → geometry → graph → frame → reference → effects → render → {study, cli}.
+// Dependencies point one way: base → {image, config, scene, gl} → geometry → graph → frame → reference → effects →
+// render → {study, cli}.
 
 #include <gtest/gtest.h>
 
@@ -18,11 +19,12 @@ TEST(Arrows, includesPointOneWay) {
         {"scene", {"base", "config", "scene"}},
         {"geometry", {"base", "scene", "geometry"}},
         {"graph", {"base", "graph"}},
-        {"gl", {"base", "graph", "gl"}},   // graph/format.h: the vocabulary of pixel formats
+        {"gl", {"base", "graph", "gl"}},  // graph/format.h: the vocabulary of pixel formats
         {"frame", {"base", "image", "scene", "geometry", "gl", "graph", "frame"}},
         {"reference", {"base", "geometry", "frame", "reference"}},
         {"effects", {"base", "config", "graph", "frame", "reference", "effects"}},
-        {"render", {"base", "image", "config", "scene", "geometry", "gl", "graph", "frame", "reference", "effects", "render"}},
+        {"render",
+            {"base", "image", "config", "scene", "geometry", "gl", "graph", "frame", "reference", "effects", "render"}},
         {"study", {"base", "image", "config", "frame", "reference", "effects", "render", "study"}},
         {"cli", {"base", "image", "gl", "render", "study", "cli"}},
     };
@@ -31,7 +33,7 @@ TEST(Arrows, includesPointOneWay) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
         if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
         const std::string room = std::filesystem::relative(entry.path(), source).begin()->string();
-        if (!allowed.contains(room)) continue;   // main.cpp
+        if (!allowed.contains(room)) continue;  // main.cpp
         std::ifstream file(entry.path());
         std::string line;
         while (std::getline(file, line)) {

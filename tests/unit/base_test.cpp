@@ -1,8 +1,8 @@
 #include "base/color.h"
 #include "base/in_order.h"
 #include "base/params.h"
-#include "base/uniform_block.h"
 #include "base/text.h"
+#include "base/uniform_block.h"
 #include "config/document.h"
 
 #include <gtest/gtest.h>
@@ -30,14 +30,14 @@ struct Basket {
     glm::dvec3 place{0};
 };
 constexpr Field kBasket[] = {
-    field<&Basket::weight>("weight", {.unit = "kg", .min = 0, .max = 10, .doc = "How heavy."}),
-    field<&Basket::count>("count", {.min = 0, .max = 100, .doc = "How many."}),
-    field<&Basket::ripe>("ripe", {.doc = "Ready."}),
-    field<&Basket::fruit>("fruit", {.doc = "Which."}),
-    field<&Basket::color>("color", {.doc = "Colour."}),
-    field<&Basket::reach>("reach", {.min = 0, .doc = "How far."}),
-    field<&Basket::line>("line", {.min = 0, .doc = "How wide."}),
-    field<&Basket::place>("place", {.doc = "Where."}),
+    field<&Basket::weight>("weight", {.unit = "kg", .min = 0, .max = 10}, "How heavy."),
+    field<&Basket::count>("count", {.min = 0, .max = 100}, "How many."),
+    field<&Basket::ripe>("ripe", "Ready."),
+    field<&Basket::fruit>("fruit", "Which."),
+    field<&Basket::color>("color", "Colour."),
+    field<&Basket::reach>("reach", {.min = 0}, "How far."),
+    field<&Basket::line>("line", {.min = 0}, "How wide."),
+    field<&Basket::place>("place", "Where."),
 };
 
 struct Read {
@@ -57,7 +57,9 @@ std::string onlyError(const std::string& toml) {
 }
 
 TEST(Params, readsEveryType) {
-    const Read r = read("weight = 2.5\ncount = 7\nripe = false\nfruit = 'apple'\ncolor = '#ff0000'\nreach = 0.25\nline = '0.35mm'\nplace = [1, 2.5, -3]");
+    const Read r = read(
+        "weight = 2.5\ncount = 7\nripe = false\nfruit = 'apple'\ncolor = '#ff0000'\nreach = 0.25\nline = "
+        "'0.35mm'\nplace = [1, 2.5, -3]");
     EXPECT_TRUE(r.errors.empty());
     EXPECT_EQ(r.basket.weight, 2.5f);
     EXPECT_EQ(r.basket.count, 7);
@@ -70,17 +72,20 @@ TEST(Params, readsEveryType) {
 }
 
 TEST(Params, whatIsWrittenReadsBackTheSame) {
-    Basket basket{0.1f, 4, false, Fruit::apple, {0.25f, 0.5f, 1}, Length::percent(7.5), {0.002, PictureLength::Unit::imageHeight}, {0.1, 1e-9, 3}};
+    Basket basket{0.1f, 4, false, Fruit::apple, {0.25f, 0.5f, 1}, Length::percent(7.5),
+        {0.002, PictureLength::Unit::imageHeight}, {0.1, 1e-9, 3}};
     std::string toml;
     for (const auto& f : kBasket) toml += std::string(f.name) + " = " + f.type().text(f.member(&basket)) + "\n";
     const Read r = read(toml);
     EXPECT_TRUE(r.errors.empty()) << toml;
-    for (const auto& f : kBasket) EXPECT_EQ(f.type().text(f.member_(&r.basket)), f.type().text(f.member(&basket))) << f.name;
+    for (const auto& f : kBasket)
+        EXPECT_EQ(f.type().text(f.member_(&r.basket)), f.type().text(f.member(&basket))) << f.name;
 }
 
 TEST(Params, errorsNamePlaceProblemAndRemedy) {
     EXPECT_EQ(onlyError("wieght = 2"), "basket.toml:1:1: unknown key 'wieght' in [basket]; did you mean 'weight'?");
-    EXPECT_NE(onlyError("\nweight = 11").find("basket.toml:2:10: 'weight' in [basket] is 11, but must be 0 to 10"), std::string::npos);
+    EXPECT_NE(onlyError("\nweight = 11").find("basket.toml:2:10: 'weight' in [basket] is 11, but must be 0 to 10"),
+        std::string::npos);
     EXPECT_NE(onlyError("count = 2.5").find("must be a whole number"), std::string::npos);
     EXPECT_NE(onlyError("fruit = 'aple'").find("did you mean 'apple'?"), std::string::npos);
     EXPECT_NE(onlyError("color = 'red'").find("#rrggbb"), std::string::npos);
@@ -90,7 +95,9 @@ TEST(Params, errorsNamePlaceProblemAndRemedy) {
 }
 
 TEST(Params, keyedValues) {
-    const Read r = read("weight = { keys = [[1, 2], [11, 4]] }\nplace = { keys = [[1, [0,0,0]], [3, [2,0,8]]], interpolation = 'constant' }\ncount = { keys = [[0, 0], [2, 3]] }");
+    const Read r = read(
+        "weight = { keys = [[1, 2], [11, 4]] }\nplace = { keys = [[1, [0,0,0]], [3, [2,0,8]]], interpolation = "
+        "'constant' }\ncount = { keys = [[0, 0], [2, 3]] }");
     ASSERT_TRUE(r.errors.empty());
     Basket at = r.basket;
     applyTracks(&at, r.tracks, 6);
@@ -116,15 +123,27 @@ struct Constants {
     std::array<glm::vec4, 16> f{};
 };
 constexpr Field kConstants[] = {
-    field<&Constants::a>("a", {.unit = "m", .doc = "First."}), field<&Constants::b>("b", {.doc = "Second."}), field<&Constants::c>("c", {.doc = "Third."}),
-    field<&Constants::d>("d", {.doc = "Fourth."}), field<&Constants::e>("e", {.doc = "Fifth."}), field<&Constants::f>("f", {.doc = "Sixth."}),
+    field<&Constants::a>("a", {.unit = "m"}, "First."),
+    field<&Constants::b>("b", "Second."),
+    field<&Constants::c>("c", "Third."),
+    field<&Constants::d>("d", "Fourth."),
+    field<&Constants::e>("e", "Fifth."),
+    field<&Constants::f>("f", "Sixth."),
 };
 
 TEST(Params, uniformBlockFollowsStd140) {
     const Constants constants;
     const UniformBlock block = makeUniformBlock("params", 1, kConstants, &constants);
-    const auto floatAt = [&](std::size_t at) { float v; std::memcpy(&v, block.bytes.data() + at, 4); return v; };
-    const auto intAt = [&](std::size_t at) { int v; std::memcpy(&v, block.bytes.data() + at, 4); return v; };
+    const auto floatAt = [&](std::size_t at) {
+        float v;
+        std::memcpy(&v, block.bytes.data() + at, 4);
+        return v;
+    };
+    const auto intAt = [&](std::size_t at) {
+        int v;
+        std::memcpy(&v, block.bytes.data() + at, 4);
+        return v;
+    };
     EXPECT_EQ(floatAt(0), 1);
     EXPECT_EQ(floatAt(16), 2) << "vec3 aligns to 16";
     EXPECT_EQ(floatAt(28), 5) << "a float fills the vec3's fourth place";
@@ -148,7 +167,8 @@ TEST(Params, constantsAreHandedOnWhereTheyAreUsed) {
     EXPECT_NE(some.vertex.find("flat out vec3 params_b;"), std::string::npos) << some.vertex;
     EXPECT_NE(some.vertex.find("params_d = int(paramsUniforms.d);"), std::string::npos) << some.vertex;
     EXPECT_NE(some.fragment.find("flat in vec4[3] params_list;"), std::string::npos) << some.fragment;
-    EXPECT_NE(some.fragment.find("params = paramsConstants(params_b, params_d != 0, params_list);"), std::string::npos) << some.fragment;
+    EXPECT_NE(some.fragment.find("params = paramsConstants(params_b, params_d != 0, params_list);"), std::string::npos)
+        << some.fragment;
     EXPECT_EQ(some.fragment.find("params_a"), std::string::npos) << "nobody reads it";
 }
 
@@ -172,12 +192,24 @@ TEST(InOrder, takesEverythingInOrderAndHandsOnWhatIsThrown) {
         });
     ASSERT_EQ(taken.size(), kCount);
     EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
-    inOrder(0, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); });
+    inOrder(
+        0, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); });
 
     std::size_t before = 0;
-    EXPECT_THROW(inOrder(kCount, [](std::size_t i) { if (i == 700) throw std::runtime_error("make"); }, [&](std::size_t) { ++before; }), std::runtime_error);
+    EXPECT_THROW(inOrder(
+                     kCount,
+                     [](std::size_t i) {
+                         if (i == 700) throw std::runtime_error("make");
+                     },
+                     [&](std::size_t) { ++before; }),
+        std::runtime_error);
     EXPECT_EQ(before, 700u);
-    EXPECT_THROW(inOrder(kCount, [](std::size_t) {}, [](std::size_t i) { if (i == 700) throw std::runtime_error("take"); }), std::runtime_error);
+    EXPECT_THROW(inOrder(
+                     kCount, [](std::size_t) {},
+                     [](std::size_t i) {
+                         if (i == 700) throw std::runtime_error("take");
+                     }),
+        std::runtime_error);
 }
 
 TEST(Color, srgbRoundTrip) {
@@ -201,23 +233,29 @@ TEST(Document, settingsLayerOn) {
 }
 
 TEST(Document, lettersBeyondAsciiBelongIntoQuotes) {
-    EXPECT_NO_THROW(parseDocument("# Zürich\na = \"Zürich \\\" ü\"\nb = 'é'\nc = \"\"\"ä\n\"ö\"\n\"\"\" # ß\nd = \"\"\n", "t"));
-    const Node continued = parseDocument("a = \"\"\"x \\\n  étage\"\"\"", "t");   // a line's end that is left out, then a letter
+    EXPECT_NO_THROW(
+        parseDocument("# Zürich\na = \"Zürich \\\" ü\"\nb = 'é'\nc = \"\"\"ä\n\"ö\"\n\"\"\" # ß\nd = \"\"\n", "t"));
+    const Node continued =
+        parseDocument("a = \"\"\"x \\\n  étage\"\"\"", "t");  // a line's end that is left out, then a letter
     EXPECT_EQ(*continued.find("a")->text(), "x étage");
-    for (const char* text : {"a = 1\nb = \"\"\"\\é\"\"\"\n", "a = 1\nb = \"\"\"\\\xC2\xA0\"\"\"\n", "a = \"\"\"\"\"\"\nb = é\n", "a = 1\nb = ä\n", "a = 1\n  ü = 1\n", "a = \"x\"\nb\xC2\xA0= 1\n", "a = 1\nb = \xFF\n"}) {
+    for (const char* text :
+        {"a = 1\nb = \"\"\"\\é\"\"\"\n", "a = 1\nb = \"\"\"\\\xC2\xA0\"\"\"\n", "a = \"\"\"\"\"\"\nb = é\n",
+            "a = 1\nb = ä\n", "a = 1\n  ü = 1\n", "a = \"x\"\nb\xC2\xA0= 1\n", "a = 1\nb = \xFF\n"}) {
         const bool isText = std::string_view(text).find('\xFF') == std::string_view::npos;
         try {
             parseDocument(text, "t");
             FAIL() << text;
         } catch (const Error& error) {
             EXPECT_NE(error.message.find("t:2:"), std::string::npos) << error.message;
-            EXPECT_NE(error.message.find(isText ? "belong into quotes" : "invalid utf-8"), std::string::npos) << error.message;
+            EXPECT_NE(error.message.find(isText ? "belong into quotes" : "invalid utf-8"), std::string::npos)
+                << error.message;
         }
     }
 }
 
 TEST(Document, canonicalTextIgnoresOrderAndPlace) {
-    EXPECT_EQ(canonicalText(parseDocument("a = 1\nb = 'x'", "1")), canonicalText(parseDocument("b = 'x'\n\n# note\na = 1", "2")));
+    EXPECT_EQ(canonicalText(parseDocument("a = 1\nb = 'x'", "1")),
+        canonicalText(parseDocument("b = 'x'\n\n# note\na = 1", "2")));
     EXPECT_NE(canonicalText(parseDocument("a = 1", "1")), canonicalText(parseDocument("a = 2", "1")));
 }
 

@@ -1,5 +1,5 @@
-#include "geometry/tri_mesh.h"
 #include "scene/obj.h"
+#include "geometry/tri_mesh.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,9 @@ bool warned(const ObjFile& file, std::string_view words) {
 }
 
 TEST(Obj, readsWhatRealFilesContain) {
-    const auto file = parse("\xEF\xBB\xBF# made\r\nmtllib a b.mtl\r\nv 0 0 0 1\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 \\\r\n0\r\nvt 0 0\r\nvn 0 0 1\r\nusemtl two words\r\no part\r\ns 1\r\nf 1/1/1 2//1 -2/1 -1\r\n");
+    const auto file = parse(
+        "\xEF\xBB\xBF# made\r\nmtllib a b.mtl\r\nv 0 0 0 1\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 \\\r\n0\r\nvt 0 0\r\nvn 0 0 "
+        "1\r\nusemtl two words\r\no part\r\ns 1\r\nf 1/1/1 2//1 -2/1 -1\r\n");
     EXPECT_TRUE(file.warnings.empty());
     ASSERT_EQ(file.mesh.faceCount(), 1u);
     EXPECT_EQ(file.mesh.cornerPosition, (std::vector<std::uint32_t>{0, 1, 2, 3}));
@@ -78,7 +80,8 @@ TEST(Obj, readsColoursOfVertices) {
 }
 
 TEST(Obj, refusesWhatCannotBeTrusted) {
-    for (const char* text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 4 5 6\nf 1 2 3\n", "f 1 2 3\n", "garbage \x01\x02"}) {
+    for (const char* text :
+        {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 4 5 6\nf 1 2 3\n", "f 1 2 3\n", "garbage \x01\x02"}) {
         try {
             parse(text);
             FAIL() << text;
@@ -92,7 +95,9 @@ TEST(Obj, refusesWhatCannotBeTrusted) {
 TEST(Obj, cutAnywhereGivesTheSameMesh) {
     std::string text;
     for (int i = 0; i < 400; ++i)
-        text += fmt::format("v {} {} {}\nv {} 1 \\\n 2\nvt {} 0\nv 0 {} 1\nusemtl m{}\ng part{}\nf -3/-1 -2/-1 -1/-1\nf {} 2 \\\n3 4\n", i, i * 0.5, -i, i, i * 0.01, i + 1, i % 7, i % 5, i + 1);
+        text += fmt::format(
+            "v {} {} {}\nv {} 1 \\\n 2\nvt {} 0\nv 0 {} 1\nusemtl m{}\ng part{}\nf -3/-1 -2/-1 -1/-1\nf {} 2 \\\n3 4\n",
+            i, i * 0.5, -i, i, i * 0.01, i + 1, i % 7, i % 5, i + 1);
     const auto whole = parse(text, 1);
     for (const int chunks : {2, 3, 17, 200}) {
         const auto cut = parse(text, chunks);
@@ -106,8 +111,11 @@ TEST(Obj, cutAnywhereGivesTheSameMesh) {
 
 TEST(Obj, hostileTextNeverCrashes) {
     std::mt19937 random(7);
-    const std::string good = std::string(kSquare) + "vt 0 1\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nusemtl a\ng b\ns 1\nf 1 2 3 4\n";
-    const std::string alphabet = "vftn 0123456789-/.e+\\\n\r\t#\"\xff" "nai";
+    const std::string good =
+        std::string(kSquare) + "vt 0 1\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nusemtl a\ng b\ns 1\nf 1 2 3 4\n";
+    const std::string alphabet =
+        "vftn 0123456789-/.e+\\\n\r\t#\"\xff"
+        "nai";
     int survived = 0;
     for (int i = 0; i < 20000; ++i) {
         std::string text = good;
@@ -129,16 +137,15 @@ TEST(Obj, hostileTextNeverCrashes) {
             for (const auto index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
             for (const auto& n : mesh.normals) ASSERT_TRUE(std::isfinite(n.x + n.y + n.z));
             ++survived;
-        } catch (const Error& error) {
-            ASSERT_EQ(error.code, ExitCode::badData);
-        }
+        } catch (const Error& error) { ASSERT_EQ(error.code, ExitCode::badData); }
     }
     EXPECT_GT(survived, 5000) << "most damage should be mended";
 }
 
 double area(const std::vector<glm::dvec3>& p, const std::vector<std::uint32_t>& triangles) {
     double sum = 0;
-    for (std::size_t t = 0; t < triangles.size(); t += 3) sum += glm::cross(p[triangles[t + 1]] - p[triangles[t]], p[triangles[t + 2]] - p[triangles[t]]).z / 2;
+    for (std::size_t t = 0; t < triangles.size(); t += 3)
+        sum += glm::cross(p[triangles[t + 1]] - p[triangles[t]], p[triangles[t + 2]] - p[triangles[t]]).z / 2;
     return sum;
 }
 
@@ -152,10 +159,12 @@ TEST(Polygon, concaveOnesAreFilledRight) {
     comb.emplace_back(0, -1, 0);
     std::reverse(comb.begin(), comb.end());
     double expected = 0;
-    for (std::size_t i = 0; i < comb.size(); ++i) expected += (comb[i].x * comb[(i + 1) % comb.size()].y - comb[(i + 1) % comb.size()].x * comb[i].y) / 2;
+    for (std::size_t i = 0; i < comb.size(); ++i)
+        expected += (comb[i].x * comb[(i + 1) % comb.size()].y - comb[(i + 1) % comb.size()].x * comb[i].y) / 2;
     const auto triangles = triangulatePolygon(comb);
     EXPECT_NEAR(area(comb, triangles), expected, 1e-9);
-    for (std::size_t t = 0; t < triangles.size(); t += 3) EXPECT_GE(area(comb, {triangles[t], triangles[t + 1], triangles[t + 2]}), 0) << "no triangle folds over";
+    for (std::size_t t = 0; t < triangles.size(); t += 3)
+        EXPECT_GE(area(comb, {triangles[t], triangles[t + 1], triangles[t + 2]}), 0) << "no triangle folds over";
 }
 
 TEST(TriMesh, buildsOnlyWhatIsAsked) {
@@ -172,25 +181,32 @@ TEST(TriMesh, missingNormalsAreSmoothByAngleOrGroup) {
     // Two squares folded by 20 degrees are one smooth surface; by 90 degrees they are not.
     const auto fold = [](double degrees, const char* smoothing) {
         const double r = degrees * std::acos(-1.0) / 180;
-        return fmt::format("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv {0} 0 {1}\nv {0} 1 {1}\n{2}f 1 2 3 4\nf 2 5 6 3\n", 1 + std::cos(r), std::sin(r), smoothing);
+        return fmt::format("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv {0} 0 {1}\nv {0} 1 {1}\n{2}f 1 2 3 4\nf 2 5 6 3\n",
+            1 + std::cos(r), std::sin(r), smoothing);
     };
-    const auto vertices = [&](double degrees, const char* smoothing) { return buildTriMesh(parse(fold(degrees, smoothing)).mesh, {true, false, true}).positions.size(); };
-    EXPECT_EQ(vertices(20, ""), 8u - 2u + 0u + 0u);   // shared along the fold…
-    EXPECT_EQ(vertices(90, ""), 8u);                  // …or split
+    const auto vertices = [&](double degrees, const char* smoothing) {
+        return buildTriMesh(parse(fold(degrees, smoothing)).mesh, {true, false, true}).positions.size();
+    };
+    EXPECT_EQ(vertices(20, ""), 8u - 2u + 0u + 0u);  // shared along the fold…
+    EXPECT_EQ(vertices(90, ""), 8u);                 // …or split
     EXPECT_EQ(vertices(90, "s 1\n"), 6u);
     EXPECT_EQ(vertices(20, "s off\n"), 8u);
 }
 
 TEST(TriMesh, farFromTheOriginKeepsItsShape) {
     const auto near = buildTriMesh(parse(kSquare + std::string("f 1 2 3 4\n")).mesh, {});
-    const auto far = buildTriMesh(parse("v 1e8 1e8 0\nv 100000001 1e8 0\nv 100000001 100000001 0\nv 1e8 100000001 0\nf 1 2 3 4\n").mesh, {});
+    const auto far = buildTriMesh(
+        parse("v 1e8 1e8 0\nv 100000001 1e8 0\nv 100000001 100000001 0\nv 1e8 100000001 0\nf 1 2 3 4\n").mesh, {});
     EXPECT_EQ(near.positions, far.positions);
     EXPECT_EQ(far.pivot - near.pivot, glm::dvec3(1e8, 1e8, 0));
 }
 
 TEST(Mtl, readsColoursTexturesAndHighlights) {
     std::vector<MeshWarning> warnings;
-    const auto materials = parseMtl("newmtl red paint\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 80\nmap_Kd -s 2 2 1 missing file.png\nmap_d leaf.png\nnewmtl grey\nKd 0.5\n", "/nowhere", warnings);
+    const auto materials = parseMtl(
+        "newmtl red paint\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 80\nmap_Kd -s 2 2 1 missing file.png\nmap_d leaf.png\nnewmtl "
+        "grey\nKd 0.5\n",
+        "/nowhere", warnings);
     ASSERT_EQ(materials.size(), 2u);
     EXPECT_EQ(materials[0].name, "red paint");
     EXPECT_EQ(materials[0].color, (Color{1, 0, 0}));

@@ -7,7 +7,9 @@ namespace {
 
 struct Builder {
     Graph graph;
-    ResourceId image(const char* name, Format format = Format::r32f, bool persistent = false) { return graph.add({name, format, {64, 32}, persistent}); }
+    ResourceId image(const char* name, Format format = Format::r32f, bool persistent = false) {
+        return graph.add({name, format, {64, 32}, persistent});
+    }
     void pass(const char* name, std::vector<ResourceId> reads, std::vector<ResourceId> writes) {
         Pass p;
         p.name = name;
@@ -17,7 +19,8 @@ struct Builder {
     }
     std::vector<std::string> names(const Plan& plan) const {
         std::vector<std::string> list;
-        for (const auto& planned : plan.passes) list.push_back(graph.passes[static_cast<std::size_t>(planned.pass)].name);
+        for (const auto& planned : plan.passes)
+            list.push_back(graph.passes[static_cast<std::size_t>(planned.pass)].name);
         return list;
     }
 };
@@ -65,7 +68,8 @@ TEST(Plan, wantedAndPersistentTexturesAreNeverShared) {
 
 TEST(Plan, aRunMakesWhatItsOwnPassesRead) {
     Builder b;
-    const auto ids = b.image("ids"), depth = b.image("depth"), normal = b.image("normal"), lines = b.image("lines"), beauty = b.image("beauty");
+    const auto ids = b.image("ids"), depth = b.image("depth"), normal = b.image("normal"), lines = b.image("lines"),
+               beauty = b.image("beauty");
     b.pass("raster", {}, {ids});
     b.pass("resolve", {ids}, {depth, normal});
     b.pass("lines", {depth, normal}, {lines});
@@ -77,7 +81,9 @@ TEST(Plan, aRunMakesWhatItsOwnPassesRead) {
     const Plan plan = compile(b.graph, wanted);
     EXPECT_EQ(plan.passes[1].halo, 6);
     const auto run = [&](bool first, bool findsLines) {
-        return narrow(b.graph, plan, wanted, [&](const Pass& pass) { return pass.rate == Pass::Rate::line ? findsLines : pass.rate == Pass::Rate::subFrame ? first : true; });
+        return narrow(b.graph, plan, wanted, [&](const Pass& pass) {
+            return pass.rate == Pass::Rate::line ? findsLines : pass.rate == Pass::Rate::subFrame ? first : true;
+        });
     };
     const Plan all = run(true, true);
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {

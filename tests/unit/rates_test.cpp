@@ -13,7 +13,8 @@
 namespace limn {
 namespace {
 
-/// A closed cage with an interior vertex of two faces in one of its two pieces: a cube, and a cube whose lid is cut along a bent line.
+/// A closed cage with an interior vertex of two faces in one of its two pieces: a cube, and a cube whose lid is cut
+/// along a bent line.
 const char* const kCages =
     "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
@@ -23,8 +24,14 @@ const char* const kCages =
 std::size_t openEdges(const TriMesh& mesh) {
     std::map<std::array<float, 3>, int> numbers;
     std::map<std::pair<int, int>, int> uses;
-    const auto number = [&](std::uint32_t i) { return numbers.emplace(std::array{mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z}, static_cast<int>(numbers.size())).first->second; };
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) ++uses[std::minmax({number(mesh.indices[i]), number(mesh.indices[i % 3 == 2 ? i - 2 : i + 1])})];
+    const auto number = [&](std::uint32_t i) {
+        return numbers
+            .emplace(std::array{mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z},
+                static_cast<int>(numbers.size()))
+            .first->second;
+    };
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        ++uses[std::minmax({number(mesh.indices[i]), number(mesh.indices[i % 3 == 2 ? i - 2 : i + 1])})];
     std::size_t open = 0;
     for (const auto& [edge, count] : uses) open += count % 2;
     return open;
@@ -56,10 +63,12 @@ TEST(Rates, bothWaysGiveOneSurface) {
     std::size_t astray = 0;
     for (const auto i : patches.indices) {
         double nearest = 1e9;
-        for (const auto j : uniform.indices) nearest = std::min<double>(nearest, glm::distance(patches.positions[i], uniform.positions[j]));
+        for (const auto j : uniform.indices)
+            nearest = std::min<double>(nearest, glm::distance(patches.positions[i], uniform.positions[j]));
         const glm::dvec3 point = glm::dvec3(patches.positions[i]) + patches.pivot;
-        // The vertex with two faces: uniform refinement stops short of its limit, by a quarter less with each level. Its eighth level is
-        // at 5.057145, 0.028572, 1.085717, the ones before go to and fro about 5.057143, 0.028571, 1.085714.
+        // The vertex with two faces: uniform refinement stops short of its limit, by a quarter less with each level.
+        // Its eighth level is at 5.057145, 0.028572, 1.085717, the ones before go to and fro about 5.057143, 0.028571,
+        // 1.085714.
         if (nearest <= 1e-5 * 7.6) continue;
         ++astray;
         EXPECT_LT(glm::distance(point, glm::dvec3(5.057143, 0.028571, 1.085714)), 1e-5 * 7.6);

@@ -15,8 +15,10 @@ TriMesh boxes(const std::vector<std::array<glm::vec3, 2>>& list, bool inwards = 
     TriMesh mesh;
     for (const auto& [lo, hi] : list) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
-        constexpr std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+        for (int i = 0; i < 8; ++i)
+            mesh.positions.emplace_back(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+        constexpr std::uint32_t quads[6][4] = {
+            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
         for (const auto& q : quads)
             for (const int k : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(first + q[inwards ? 3 - k : k]);
     }
@@ -25,16 +27,21 @@ TriMesh boxes(const std::vector<std::array<glm::vec3, 2>>& list, bool inwards = 
     return mesh;
 }
 
-struct Measure { double volume = 0, cutArea = 0; int openEdges = 0; };
+struct Measure {
+    double volume = 0, cutArea = 0;
+    int openEdges = 0;
+};
 
 Measure measure(const TriMesh& mesh, std::uint32_t cutMaterial) {
     Measure m;
     std::map<std::array<float, 6>, int> edges;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-        const glm::vec3 p[3] = {mesh.positions[mesh.indices[3 * t]], mesh.positions[mesh.indices[3 * t + 1]], mesh.positions[mesh.indices[3 * t + 2]]};
+        const glm::vec3 p[3] = {mesh.positions[mesh.indices[3 * t]], mesh.positions[mesh.indices[3 * t + 1]],
+            mesh.positions[mesh.indices[3 * t + 2]]};
         const glm::dvec3 a(p[0]), b(p[1]), c(p[2]);
         m.volume += glm::dot(a, glm::cross(b, c)) / 6;
-        if (!mesh.triangleMaterial.empty() && mesh.triangleMaterial[t] == cutMaterial) m.cutArea += glm::length(glm::cross(b - a, c - a)) / 2;
+        if (!mesh.triangleMaterial.empty() && mesh.triangleMaterial[t] == cutMaterial)
+            m.cutArea += glm::length(glm::cross(b - a, c - a)) / 2;
         for (int k = 0; k < 3; ++k) {
             const glm::vec3 from = p[k], to = p[(k + 1) % 3];
             ++edges[{from.x, from.y, from.z, to.x, to.y, to.z}];
@@ -49,15 +56,16 @@ const MeshNeeds kNeeds{.normals = true};
 
 TEST(Section, halfABoxIsClosedAndHasHalfTheVolume) {
     const TriMesh box = boxes({{glm::vec3(-1, -2, -3), glm::vec3(1, 2, 3)}});
-    for (const glm::dvec3& direction : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(-1, 1, 0.1)}) {
-        const CutMesh cut = cutMesh(box, {direction, 0, 7, 1}, kNeeds);   // through the centre
+    for (const glm::dvec3& direction :
+        {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(-1, 1, 0.1)}) {
+        const CutMesh cut = cutMesh(box, {direction, 0, 7, 1}, kNeeds);  // through the centre
         const Measure m = measure(cut.mesh, 7);
         EXPECT_NEAR(m.volume, 24, 1e-4);
         EXPECT_EQ(m.openEdges, 0);
         EXPECT_EQ(cut.openOutlines, 0u);
         EXPECT_GT(m.cutArea, 7.9);
     }
-    const Measure level = measure(cutMesh(box, {{0, 0, 2}, -2, 7, 1}, kNeeds).mesh, 7);   // at z = 1
+    const Measure level = measure(cutMesh(box, {{0, 0, 2}, -2, 7, 1}, kNeeds).mesh, 7);  // at z = 1
     EXPECT_NEAR(level.cutArea, 8, 1e-6);
     EXPECT_NEAR(level.volume, 32, 1e-5);
 }
@@ -78,7 +86,10 @@ TEST(Section, solidsInOneAnotherAreFilledOnceAndHolesStayOpen) {
     EXPECT_NEAR(measure(cutMesh(nested, level, kNeeds).mesh, 7).cutArea, 16 + 16 - 9, 1e-5);
     TriMesh hollow = boxes({{glm::vec3(-2), glm::vec3(2)}});
     const TriMesh cavity = boxes({{glm::vec3(-1), glm::vec3(1)}}, true);
-    for (const auto i : cavity.indices) hollow.indices.push_back(i + 8), hollow.normalIndices.push_back(0);
+    for (const auto i : cavity.indices) {
+        hollow.indices.push_back(i + 8);
+        hollow.normalIndices.push_back(0);
+    }
     hollow.positions.insert(hollow.positions.end(), cavity.positions.begin(), cavity.positions.end());
     const CutMesh cut = cutMesh(hollow, level, kNeeds);
     EXPECT_NEAR(measure(cut.mesh, 7).cutArea, 16 - 4, 1e-5);

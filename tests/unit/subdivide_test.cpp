@@ -1,4 +1,5 @@
-// Subdivision against independent implementations: OpenSubdiv's uniform refinement and limit, and the point sets that Hbr made.
+// Subdivision against independent implementations: OpenSubdiv's uniform refinement and limit, and the point sets that
+// Hbr made.
 
 #include "geometry/subdivide.h"
 #include "geometry/topology.h"
@@ -41,7 +42,9 @@ Cage readCage(const std::filesystem::path& path) {
     std::vector<MeshWarning> warnings;
     repairTopology(cage.mesh, warnings);
     const std::string name = path.filename().string();
-    cage.options.scheme = name.starts_with("loop") ? SubdivisionScheme::loop : name.starts_with("bilinear") ? SubdivisionScheme::bilinear : SubdivisionScheme::catmullClark;
+    cage.options.scheme = name.starts_with("loop") ? SubdivisionScheme::loop
+        : name.starts_with("bilinear")             ? SubdivisionScheme::bilinear
+                                                   : SubdivisionScheme::catmullClark;
     cage.options.boundary = BoundaryRule::edgeOnly;
     cage.options = withTags(cage.options, cage.mesh.tags);
     return cage;
@@ -68,7 +71,9 @@ public:
 
 private:
     glm::i64vec3 cell(const glm::dvec3& p) const { return glm::i64vec3(glm::floor(p / reach_)); }
-    static std::size_t key(const glm::i64vec3& c) { return static_cast<std::size_t>(c.x * 73856093 ^ c.y * 19349663 ^ c.z * 83492791); }
+    static std::size_t key(const glm::i64vec3& c) {
+        return static_cast<std::size_t>(c.x * 73856093 ^ c.y * 19349663 ^ c.z * 83492791);
+    }
     std::vector<glm::dvec3> points_;
     double reach_;
     std::unordered_map<std::size_t, std::vector<std::size_t>> cells_;
@@ -100,25 +105,31 @@ Corners cornersOf(const TriMesh& mesh) {
 std::size_t openEdges(const TriMesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> numbers;
     std::vector<std::uint32_t> number;
-    for (const auto& p : mesh.positions) number.push_back(numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
+    for (const auto& p : mesh.positions)
+        number.push_back(
+            numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         const auto a = number[mesh.indices[i]], b = number[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
         ++uses[std::minmax(a, b)];
     }
-    return static_cast<std::size_t>(std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second % 2 == 1; }));
+    return static_cast<std::size_t>(
+        std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second % 2 == 1; }));
 }
 
 /// Points of the triangles' rims, in world units.
 std::vector<glm::dvec3> rimPoints(const TriMesh& mesh) {
     std::map<std::array<float, 3>, std::uint32_t> numbers;
     std::vector<std::uint32_t> number;
-    for (const auto& p : mesh.positions) number.push_back(numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
+    for (const auto& p : mesh.positions)
+        number.push_back(
+            numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<int, std::array<std::uint32_t, 2>>> uses;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         const auto a = mesh.indices[i], b = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
         auto& use = uses[std::minmax(number[a], number[b])];
-        ++use.first, use.second = {a, b};
+        ++use.first;
+        use.second = {a, b};
     }
     std::vector<glm::dvec3> points;
     for (const auto& [edge, use] : uses)
@@ -154,14 +165,13 @@ TEST_F(Shapes, areFiniteAndWithoutCracks) {
             ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << path;
             ASSERT_NEAR(glm::length(n), 1, 1e-5) << path;
         }
-        // As many as uniform refinement leaves open, which shares every point; where it does not know a vertex's limit (two faces), as
-        // many as the cage's open edges were cut into.
-        // Faces that meet themselves are cut, and edges of three faces and more are open or not as it happens: nothing to count there.
+        // As many as uniform refinement leaves open, which shares every point; where it does not know a vertex's limit
+        // (two faces), as many as the cage's open edges were cut into.
+        // Faces that meet themselves are cut, and edges of three faces and more are open or not as it happens: nothing
+        // to count there.
         if (path.filename() == "catmark_nonman_edges.obj") continue;
         const std::size_t open = openEdges(mesh);
-        if (open != openEdges(safe)) {
-            EXPECT_EQ(open, analyseTopology(cage.mesh).boundaryEdges * 8) << path;
-        }
+        if (open != openEdges(safe)) { EXPECT_EQ(open, analyseTopology(cage.mesh).boundaryEdges * 8) << path; }
     }
 }
 
@@ -169,33 +179,46 @@ TEST_F(Shapes, lieOnTheLimitSurface) {
     std::size_t total = 0;
     for (const auto& path : shapes("osd_shapes")) {
         Cage cage = readCage(path);
-        const auto regular = [&](std::size_t sides) { return std::adjacent_find(cage.mesh.faceStart.begin(), cage.mesh.faceStart.end(), [&](auto a, auto b) { return b - a != sides; }) == cage.mesh.faceStart.end(); };
+        const auto regular = [&](std::size_t sides) {
+            return std::adjacent_find(cage.mesh.faceStart.begin(), cage.mesh.faceStart.end(), [&](auto a, auto b) {
+                return b - a != sides;
+            }) == cage.mesh.faceStart.end();
+        };
         // Faces of other sizes are cut in other places; the next test looks at those.
-        if (!regular(cage.options.scheme == SubdivisionScheme::loop ? 3 : 4) || cage.options.boundary == BoundaryRule::none) continue;
+        if (!regular(cage.options.scheme == SubdivisionScheme::loop ? 3 : 4)
+            || cage.options.boundary == BoundaryRule::none)
+            continue;
         // Uniform refinement, the oracle, goes six levels deep: creases must have gone smooth by then.
         const auto outlasts = [](float sharpness) { return sharpness > 6 && sharpness < kInfiniteSharpness; };
-        if (std::any_of(cage.mesh.tags.creases.begin(), cage.mesh.tags.creases.end(), [&](const auto& c) { return outlasts(c.sharpness); })) continue;
+        if (std::any_of(cage.mesh.tags.creases.begin(), cage.mesh.tags.creases.end(),
+                [&](const auto& c) { return outlasts(c.sharpness); }))
+            continue;
         cage.options.level = 3;
         const TriMesh mesh = subdivide(cage.mesh, cage.options, {true, true, false}, path.string());
         const Corners bfr = cornersOf(mesh);
         cage.options.safe = true;
         const Corners safe = cornersOf(subdivide(cage.mesh, cage.options, {true, true, false}, path.string()));
-        // Where an infinitely sharp crease ends in a dart, uniform refinement halves its own error with each level: 1e-4 is left of it after
-        // six (7e-4 after three).
+        // Where an infinitely sharp crease ends in a dart, uniform refinement halves its own error with each level:
+        // 1e-4 is left of it after six (7e-4 after three).
         std::map<std::uint32_t, int> ends;
         for (const auto& crease : cage.mesh.tags.creases)
-            if (crease.sharpness >= kInfiniteSharpness) ++ends[crease.a], ++ends[crease.b];
+            if (crease.sharpness >= kInfiniteSharpness) {
+                ++ends[crease.a];
+                ++ends[crease.b];
+            }
         const bool dart = std::any_of(ends.begin(), ends.end(), [](const auto& end) { return end.second == 1; });
         const double reach = (dart ? 2e-4 : 1e-5) * diagonal(safe.positions);
         const PointSet bfrPoints(bfr.positions, reach), safePoints(safe.positions, reach);
-        // Where a surface has no one normal, both ways have a rule of their own: rims' corners, infinite creases and corners.
+        // Where a surface has no one normal, both ways have a rule of their own: rims' corners, infinite creases and
+        // corners.
         std::vector<glm::dvec3> singular = rimPoints(mesh);
         for (const auto& corner : cage.mesh.tags.corners)
             if (corner.sharpness >= kInfiniteSharpness) singular.push_back(cage.mesh.positions[corner.vertex]);
         const PointSet singularPoints(singular, reach);
         // Non-manifold cages have no oracle for normals: OpenSubdiv 3.5's limit tangents must not be asked of them.
         const TopologyReport topology = analyseTopology(cage.mesh);
-        const bool oneNormal = cage.options.scheme != SubdivisionScheme::bilinear && topology.nonManifoldVertices == 0 && topology.nonManifoldEdges == 0;
+        const bool oneNormal = cage.options.scheme != SubdivisionScheme::bilinear && topology.nonManifoldVertices == 0
+            && topology.nonManifoldEdges == 0;
         const double halfDegree = std::cos((dart ? 5 : 0.5) * std::acos(-1.0) / 180);
         std::size_t astray = 0, bent = 0, uvAstray = 0, normals = 0;
         for (const auto& p : bfr.positions) astray += safePoints.near(p).empty();
@@ -203,12 +226,15 @@ TEST_F(Shapes, lieOnTheLimitSurface) {
             const auto near = bfrPoints.near(safe.positions[i]);
             astray += near.empty();
             if (near.empty()) continue;
-            const bool crease = std::any_of(near.begin(), near.end(), [&](auto j) { return glm::dot(bfr.normals[near[0]], bfr.normals[j]) < halfDegree; });
+            const bool crease = std::any_of(near.begin(), near.end(),
+                [&](auto j) { return glm::dot(bfr.normals[near[0]], bfr.normals[j]) < halfDegree; });
             if (oneNormal && !crease && singularPoints.near(safe.positions[i]).empty()) {
                 bent += glm::dot(safe.normals[i], bfr.normals[near[0]]) < static_cast<float>(halfDegree);
                 ++normals;
             }
-            if (!safe.uvs.empty() && !bfr.uvs.empty()) uvAstray += std::none_of(near.begin(), near.end(), [&](auto j) { return glm::distance(safe.uvs[i], bfr.uvs[j]) < 1e-5f; });
+            if (!safe.uvs.empty() && !bfr.uvs.empty())
+                uvAstray += std::none_of(
+                    near.begin(), near.end(), [&](auto j) { return glm::distance(safe.uvs[i], bfr.uvs[j]) < 1e-5f; });
         }
         total += normals;
         EXPECT_EQ(astray, 0u) << "points: " << path << " of " << safe.positions.size();
@@ -223,8 +249,11 @@ TEST_F(Shapes, refineToWhatHbrMade) {
     for (const auto& path : shapes("osd_hbr_baseline")) {
         const std::string stem = path.stem().string(), name = stem.substr(0, stem.find("_level"));
         const int level = stem.back() == '0' ? 1 : 3;
-        // By design: OpenSubdiv's Chaikin rule is not Hbr's after the first levels, and hierarchical edits are not applied.
-        if (stem == "catmark_chaikin1_level2" || stem == "loop_chaikin1_level2" || name.find("hedit") != std::string::npos) continue;
+        // By design: OpenSubdiv's Chaikin rule is not Hbr's after the first levels, and hierarchical edits are not
+        // applied.
+        if (stem == "catmark_chaikin1_level2" || stem == "loop_chaikin1_level2"
+            || name.find("hedit") != std::string::npos)
+            continue;
         Cage cage = readCage(dataFolder() / "osd_shapes" / (name + ".obj"));
         cage.options.level = level;
         cage.options.limit = false;
@@ -250,7 +279,8 @@ TEST(Subdivision, creasesOnNonManifoldPiecesAreTakenTheSafeWay) {
         const double a = page * 2.1;
         const int first = 4 + page * 6;
         for (int column = 1; column <= 2; ++column)
-            for (int row = 0; row < 3; ++row) book += fmt::format("v {} {} {}\n", column * std::cos(a), row, column * std::sin(a));
+            for (int row = 0; row < 3; ++row)
+                book += fmt::format("v {} {} {}\n", column * std::cos(a), row, column * std::sin(a));
         for (int row = 0; row < 2; ++row) {
             faces += fmt::format("f {} {} {} {}\n", row + 1, first + row, first + row + 1, row + 2);
             faces += fmt::format("f {} {} {} {}\n", first + row, first + 3 + row, first + 4 + row, first + row + 1);
@@ -266,34 +296,44 @@ TEST(Subdivision, creasesOnNonManifoldPiecesAreTakenTheSafeWay) {
 }
 
 TEST(Subdivision, coloursAreBilinearBetweenTheCagesVertices) {
-    // A quad and a triangle beside it. However it is subdivided, a corner of the cage keeps its colour, edges blend their ends', and the middle of the quad
-    // has the mean of its four.
-    PolyMesh cage = parseObj("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 2 0 0 0 0 0\nf 1 2 3 4\nf 2 5 3\n", "cage").mesh;
+    // A quad and a triangle beside it. However it is subdivided, a corner of the cage keeps its colour, edges blend
+    // their ends', and the middle of the quad has the mean of its four.
+    PolyMesh cage = parseObj(
+        "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nv 2 0 0 0 0 0\nf 1 2 3 4\nf 2 5 3\n", "cage")
+                        .mesh;
     const auto colorsAt = [](const TriMesh& mesh, const glm::dvec3& place) {
         std::vector<glm::vec3> found;
         for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-            if (glm::distance(glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.pivot, place) < 1e-5) found.push_back(mesh.colors[mesh.colorIndices.empty() ? mesh.indices[i] : mesh.colorIndices[i]]);
+            if (glm::distance(glm::dvec3(mesh.positions[mesh.indices[i]]) + mesh.pivot, place) < 1e-5)
+                found.push_back(mesh.colors[mesh.colorIndices.empty() ? mesh.indices[i] : mesh.colorIndices[i]]);
         return found;
     };
-    for (const auto& [what, options, unified] : std::initializer_list<std::tuple<const char*, SubdivisionOptions, bool>>{
-             {"Bfr", {.scheme = SubdivisionScheme::bilinear}, false}, {"uniform", {.scheme = SubdivisionScheme::bilinear, .limit = false}, false}, {"unified", {.scheme = SubdivisionScheme::bilinear}, true}}) {
+    for (const auto& [what, options, unified] :
+        std::initializer_list<std::tuple<const char*, SubdivisionOptions, bool>>{
+            {"Bfr", {.scheme = SubdivisionScheme::bilinear}, false},
+            {"uniform", {.scheme = SubdivisionScheme::bilinear, .limit = false}, false},
+            {"unified", {.scheme = SubdivisionScheme::bilinear}, true}}) {
         const TriMesh mesh = subdivide(cage, options, {false, false, unified, true}, "cage");
-        const std::pair<glm::dvec3, glm::vec3> expected[] = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 0}, {0, 0, 1}}, {{0.5, 0, 0}, {0.5f, 0.5f, 0}}, {{0.5, 0.5, 0}, {0.5f, 0.5f, 0.5f}}, {{1.5, 0, 0}, {0, 0.5f, 0}}};
+        const std::pair<glm::dvec3, glm::vec3> expected[] = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 0}, {0, 0, 1}},
+            {{0.5, 0, 0}, {0.5f, 0.5f, 0}}, {{0.5, 0.5, 0}, {0.5f, 0.5f, 0.5f}}, {{1.5, 0, 0}, {0, 0.5f, 0}}};
         for (const auto& [place, color] : expected) {
             const auto found = colorsAt(mesh, place);
             ASSERT_FALSE(found.empty()) << what;
-            for (const auto& c : found) EXPECT_LT(glm::distance(c, color), 1e-6f) << what << ' ' << place.x << ' ' << place.y;
+            for (const auto& c : found)
+                EXPECT_LT(glm::distance(c, color), 1e-6f) << what << ' ' << place.x << ' ' << place.y;
         }
     }
     // Smooth surfaces move, but their colours stay between those of the cage.
     const TriMesh smooth = subdivide(cage, {}, {true, true, false, true}, "cage");
     ASSERT_EQ(smooth.colorIndices.size(), smooth.indices.size());
-    for (const auto& c : smooth.colors) EXPECT_TRUE(glm::all(glm::greaterThanEqual(c, glm::vec3(-1e-6f))) && glm::all(glm::lessThanEqual(c, glm::vec3(1 + 1e-6f))));
+    for (const auto& c : smooth.colors)
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(c, glm::vec3(-1e-6f)))
+            && glm::all(glm::lessThanEqual(c, glm::vec3(1 + 1e-6f))));
 }
 
 TEST_F(Shapes, modelsThatCorruptBfrAreTakenTheSafeWay) {
-    // Run this one under valgrind and with sanitizers: Bfr 3.5 writes out of bounds on some of these. Without repair too, which drops the
-    // back sides that make a plant's leaves closed pieces with vertices of two faces.
+    // Run this one under valgrind and with sanitizers: Bfr 3.5 writes out of bounds on some of these. Without repair
+    // too, which drops the back sides that make a plant's leaves closed pieces with vertices of two faces.
     std::size_t safe = 0;
     for (const char* name : {"littlePlant/littlePlant.obj", "pedestrianRailing1/pedestrianRailing1.obj"}) {
         PolyMesh mesh = readObj(dataFolder() / "debian_sh3d_cc0" / name).mesh;
@@ -303,7 +343,8 @@ TEST_F(Shapes, modelsThatCorruptBfrAreTakenTheSafeWay) {
             SubdivisionReport report;
             const TriMesh out = subdivide(mesh, {}, {true, true, false}, name, &report);
             safe += report.safeComponents;
-            for (const auto i : out.indices) ASSERT_TRUE(std::isfinite(out.positions[i].x + out.positions[i].y + out.positions[i].z)) << name;
+            for (const auto i : out.indices)
+                ASSERT_TRUE(std::isfinite(out.positions[i].x + out.positions[i].y + out.positions[i].z)) << name;
         }
     }
     EXPECT_GT(safe, 0u) << "else nothing was put to the test";

@@ -3,10 +3,12 @@
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// Paper mode: occlusion is sin h − sin t, averaged over directions (a wall at angle β hides β/π of the light), horizons less than 30 degrees
-// above the surface are ignored, occluders count 1 − (d/R)², taps beyond the picture take its border.
-// Default mode: weighted with the cosine, in planes through the line of sight, so that it tends to the ray-traced truth wherever the depth
-// buffer is the whole truth; a bias that only covers rounding; the falloff that all techniques share; a guard band.
+// Paper mode: occlusion is sin h − sin t, averaged over directions (a wall at angle β hides β/π of the light), horizons
+// less than 30 degrees above the surface are ignored, occluders count 1 − (d/R)², taps beyond the picture take its
+// border.
+// Default mode: weighted with the cosine, in planes through the line of sight, so that it tends to the ray-traced truth
+// wherever the depth buffer is the whole truth; a bias that only covers rounding; the falloff that all techniques
+// share; a guard band.
 
 #include "effects/ao/occlusion.h"
 
@@ -35,16 +37,23 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Farthest occluder that darkens a point."}),
-    field<&Params::directions>("directions", {.min = 1, .max = 64, .accuracy = true, .keyable = false, .doc = "Search directions per pixel and sample."}),
-    field<&Params::steps>("steps", {.min = 1, .max = 256, .accuracy = true, .keyable = false, .doc = "Most depths looked at along each direction."}),
-    field<&Params::angleBias>("angle_bias", {.unit = "degrees", .min = 0, .max = 89, .doc = "Horizons closer to the surface are ignored: hides the facets of coarse meshes, and real occlusion with them."}),
-    field<&Params::weight>("weight", {.doc = "Weigh what is hidden by the cosine, as light does, or count directions alike, as the paper does."}),
-    field<&Params::stepGrowth>("step_growth", {.min = 0, .max = 1, .doc = "0: steps evenly spaced; 1: distances grow by the square, denser near the point."}),
-    field<&Params::falloff>("falloff", {.doc = "How an occluder's weight falls with its distance, up to the radius."}),
-    field<&Params::clampTaps>("clamp_taps", {.doc = "Look no farther than the picture's border, as the paper does, instead of drawing a guard band."}),
-    field<&Params::resolution>("resolution", {.keyable = false, .doc = "Compute every pixel, or every second one each way."}),
-    field<&Params::strength>("strength", {.min = 0, .max = 4, .doc = "Exponent on the result: above 1 darker, below 1 lighter."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9}, "Farthest occluder that darkens a point."),
+    field<&Params::directions>("directions", {.min = 1, .max = 64, .accuracy = true, .keyable = false},
+        "Search directions per pixel and sample."),
+    field<&Params::steps>("steps", {.min = 1, .max = 256, .accuracy = true, .keyable = false},
+        "Most depths looked at along each direction."),
+    field<&Params::angleBias>("angle_bias", {.unit = "degrees", .min = 0, .max = 89},
+        "Horizons closer to the surface are ignored: hides the facets of coarse meshes, and real occlusion with them."),
+    field<&Params::weight>(
+        "weight", "Weigh what is hidden by the cosine, as light does, or count directions alike, as the paper does."),
+    field<&Params::stepGrowth>("step_growth", {.min = 0, .max = 1},
+        "0: steps evenly spaced; 1: distances grow by the square, denser near the point."),
+    field<&Params::falloff>("falloff", "How an occluder's weight falls with its distance, up to the radius."),
+    field<&Params::clampTaps>(
+        "clamp_taps", "Look no farther than the picture's border, as the paper does, instead of drawing a guard band."),
+    field<&Params::resolution>("resolution", {.keyable = false}, "Compute every pixel, or every second one each way."),
+    field<&Params::strength>(
+        "strength", {.min = 0, .max = 4}, "Exponent on the result: above 1 darker, below 1 lighter."),
 };
 
 struct Constants {
@@ -52,19 +61,21 @@ struct Constants {
     glm::vec2 turn{1, 0};
 };
 constexpr Field kConstants[] = {
-    field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Farthest occluder."}),
-    field<&Constants::sinBias>("sinBias", {.doc = "Sine of the angle above the surface below which horizons are ignored."}),
-    field<&Constants::cosBias>("cosBias", {.doc = "Its cosine."}),
-    field<&Constants::stepGrowth>("stepGrowth", {.doc = "How much denser the steps are near the point."}),
-    field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
-    field<&Constants::turn>("turn", {.doc = "Cosine and sine of the angle between directions."}),
+    field<&Constants::radius>("radius", {.unit = "normalized units"}, "Farthest occluder."),
+    field<&Constants::sinBias>("sinBias", "Sine of the angle above the surface below which horizons are ignored."),
+    field<&Constants::cosBias>("cosBias", "Its cosine."),
+    field<&Constants::stepGrowth>("stepGrowth", "How much denser the steps are near the point."),
+    field<&Constants::strength>("strength", "Exponent on the result."),
+    field<&Constants::turn>("turn", "Cosine and sine of the angle between directions."),
 };
 
 Constants derive(const Params& params, const View& view) {
-    const double bias = glm::radians(static_cast<double>(params.angleBias)), turn = 2 * std::acos(-1.0) / params.directions;
+    const double bias = glm::radians(static_cast<double>(params.angleBias)),
+                 turn = 2 * std::acos(-1.0) / params.directions;
     Constants c;
     c.radius = static_cast<float>(view.normalized(params.radius));
-    c.sinBias = static_cast<float>(std::sin(bias)), c.cosBias = static_cast<float>(std::cos(bias));
+    c.sinBias = static_cast<float>(std::sin(bias));
+    c.cosBias = static_cast<float>(std::cos(bias));
     c.stepGrowth = params.stepGrowth;
     c.strength = params.strength;
     c.turn = {std::cos(turn), std::sin(turn)};
@@ -77,7 +88,8 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "hbao";
     const int halo = params.clampTaps ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
-    pass.reads = {{"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
+    pass.reads = {
+        {"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, params.falloff);
@@ -90,9 +102,13 @@ void build(EffectBuilder& graph, const Params& params) {
     publishOcclusion(graph, inputs, result);
 }
 
-const Technique kHbao{"ao", "hbao", "Horizons of the depth image in a few directions around each pixel (Bavoil & Sainz).", kParams, build,
-                      {{"paper", "As published: uniform weight, a bias of 30 degrees, attenuation 1 - r², even steps, taps clamped to the border.",
-                        "directions = 6, steps = 6, angle_bias = 30, weight = 'uniform', step_growth = 0, falloff = 'quadratic', clamp_taps = true"}}};
+const Technique kHbao{"ao", "hbao",
+    "Horizons of the depth image in a few directions around each pixel (Bavoil & Sainz).", kParams, build,
+    {{"paper",
+        "As published: uniform weight, a bias of 30 degrees, attenuation 1 - r², even steps, taps clamped to the "
+        "border.",
+        "directions = 6, steps = 6, angle_bias = 30, weight = 'uniform', step_growth = 0, falloff = 'quadratic', "
+        "clamp_taps = true"}}};
 
 }  // namespace ao_hbao
 }  // namespace limn

@@ -3,11 +3,13 @@
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// The kernel is the lecture's: directions from the normalized half cube, a random length, drawn towards the centre so that the mean distance
-// is about a fifth of the radius. (Its listing keeps each point a second time before it is drawn in; that is an error and not kept.)
-// Paper mode: kernel turned by one of 4×4 tiled vectors, points compared at their own depth with an absolute bias. Default mode: turned by a
-// low-discrepancy angle per pixel, the bias a share of the radius, and points compared at the height above the surface that they have over
-// the pixel they fall on, so that planes are open at every tilt.
+// The kernel is the lecture's: directions from the normalized half cube, a random length, drawn towards the centre so
+// that the mean distance is about a fifth of the radius. (Its listing keeps each point a second time before it is drawn
+// in; that is an error and not kept.)
+// Paper mode: kernel turned by one of 4×4 tiled vectors, points compared at their
+// own depth with an absolute bias.
+// Default mode: turned by a low-discrepancy angle per pixel, the bias a share of the radius, and points compared at the
+// height above the surface that they have over the pixel they fall on, so that planes are open at every tilt.
 
 #include "effects/ao/occlusion.h"
 
@@ -42,18 +44,26 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Of the hemisphere."}),
-    field<&Params::points>("points", {.min = 1, .max = kMaxPoints, .accuracy = true, .keyable = false, .doc = "Kernel size: points compared per pixel and sample."}),
-    field<&Params::bias>("bias", {.unit = "radii", .min = 0, .max = 1, .doc = "How much nearer than a point the surface must be to hide it."}),
-    field<&Params::turn>("turn", {.doc = "Turn the kernel by another angle at every pixel, or by a small tile of vectors that repeats, as the lecture does."}),
-    field<&Params::noiseSize>("noise_size", {.unit = "pixels", .min = 1, .max = 64, .keyable = false, .doc = "Side of that tile."}),
-    field<&Params::compareAt>("compare_at", {.doc = "Compare the surface with a point at its height above the pixel it falls on, or with the point's own depth."}),
-    field<&Params::drawIn>("draw_in", {.min = 0, .max = 1, .doc = "Length of the first points; the others grow to 1 by the square of their number. 1: not drawn in at all."}),
-    field<&Params::rangeCheck>("range_check", {.doc = "Surfaces farther in front than the radius hide less."}),
-    field<&Params::clampTaps>("clamp_taps", {.doc = "Look no farther than the picture's border, instead of drawing a guard band."}),
-    field<&Params::falloff>("falloff", {.doc = "How an occluder's weight falls with its distance, up to the radius."}),
-    field<&Params::resolution>("resolution", {.keyable = false, .doc = "Compute every pixel, or every second one each way."}),
-    field<&Params::power>("power", {.min = 0, .max = 8, .doc = "Exponent on the result: above 1 darker, below 1 lighter."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9}, "Of the hemisphere."),
+    field<&Params::points>("points", {.min = 1, .max = kMaxPoints, .accuracy = true, .keyable = false},
+        "Kernel size: points compared per pixel and sample."),
+    field<&Params::bias>(
+        "bias", {.unit = "radii", .min = 0, .max = 1}, "How much nearer than a point the surface must be to hide it."),
+    field<&Params::turn>("turn",
+        "Turn the kernel by another angle at every pixel, or by a small tile of vectors that repeats, as the lecture "
+        "does."),
+    field<&Params::noiseSize>(
+        "noise_size", {.unit = "pixels", .min = 1, .max = 64, .keyable = false}, "Side of that tile."),
+    field<&Params::compareAt>("compare_at",
+        "Compare the surface with a point at its height above the pixel it falls on, or with the point's own depth."),
+    field<&Params::drawIn>("draw_in", {.min = 0, .max = 1},
+        "Length of the first points; the others grow to 1 by the square of their number. 1: not drawn in at all."),
+    field<&Params::rangeCheck>("range_check", "Surfaces farther in front than the radius hide less."),
+    field<&Params::clampTaps>(
+        "clamp_taps", "Look no farther than the picture's border, instead of drawing a guard band."),
+    field<&Params::falloff>("falloff", "How an occluder's weight falls with its distance, up to the radius."),
+    field<&Params::resolution>("resolution", {.keyable = false}, "Compute every pixel, or every second one each way."),
+    field<&Params::power>("power", {.min = 0, .max = 8}, "Exponent on the result: above 1 darker, below 1 lighter."),
 };
 
 struct Constants {
@@ -62,11 +72,11 @@ struct Constants {
     int noiseSize = 4;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::kernelPoints>("kernelPoints", {.doc = "Points over the unit disk, z along the normal; in xyz."}),
-    field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Of the hemisphere."}),
-    field<&Constants::bias>("bias", {.unit = "normalized units", .doc = "How much nearer the surface must be."}),
-    field<&Constants::power>("power", {.doc = "Exponent on the result."}),
-    field<&Constants::noiseSize>("noiseSize", {.unit = "pixels", .doc = "Side of the tile of turns."}),
+    field<&Constants::kernelPoints>("kernelPoints", "Points over the unit disk, z along the normal; in xyz."),
+    field<&Constants::radius>("radius", {.unit = "normalized units"}, "Of the hemisphere."),
+    field<&Constants::bias>("bias", {.unit = "normalized units"}, "How much nearer the surface must be."),
+    field<&Constants::power>("power", "Exponent on the result."),
+    field<&Constants::noiseSize>("noiseSize", {.unit = "pixels"}, "Side of the tile of turns."),
 };
 
 Constants derive(const Params& params, const View& view) {
@@ -93,11 +103,14 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "hemisphere";
     const int halo = params.clampTaps ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
-    pass.reads = {{"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
+    pass.reads = {
+        {"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, params.falloff);
-    const auto define = [&](bool on, const char* name) { if (on) pass.defines.emplace_back(name, ""); };
+    const auto define = [&](bool on, const char* name) {
+        if (on) pass.defines.emplace_back(name, "");
+    };
     define(params.turn == KernelTurn::tiled, "TILED_TURN");
     define(params.compareAt == CompareAt::height, "COMPARE_HEIGHT");
     define(params.rangeCheck, "RANGE_CHECK");
@@ -108,9 +121,12 @@ void build(EffectBuilder& graph, const Params& params) {
     publishOcclusion(graph, inputs, result);
 }
 
-const Technique kHemisphere{"ao", "hemisphere", "Points in the hemisphere over each pixel, compared with the depth buffer (Lawonn's lecture).", kParams, build,
-                            {{"paper", "As taught: 64 points, 4×4 tiled turns, points compared at their own depth, bias 0.025 of a radius of 1.",
-                              "points = 64, bias = 0.025, turn = 'tiled', noise_size = 4, compare_at = 'depth', draw_in = 0.1, range_check = true, clamp_taps = true"}}};
+const Technique kHemisphere{"ao", "hemisphere",
+    "Points in the hemisphere over each pixel, compared with the depth buffer (Lawonn's lecture).", kParams, build,
+    {{"paper",
+        "As taught: 64 points, 4×4 tiled turns, points compared at their own depth, bias 0.025 of a radius of 1.",
+        "points = 64, bias = 0.025, turn = 'tiled', noise_size = 4, compare_at = 'depth', draw_in = 0.1, range_check = "
+        "true, clamp_taps = true"}}};
 
 }  // namespace ao_hemisphere
 }  // namespace limn

@@ -3,7 +3,8 @@
 namespace limn {
 
 OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution) {
-    OcclusionInputs inputs{graph.read(aov::depth), graph.read(aov::normalGeometric), resolution == Resolution::half ? 2 : 1};
+    OcclusionInputs inputs{
+        graph.read(aov::depth), graph.read(aov::normalGeometric), resolution == Resolution::half ? 2 : 1};
     if (resolution == Resolution::full) return inputs;
     Pass pass;
     pass.name = "halve_depth";
@@ -17,7 +18,8 @@ OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution) {
 }
 
 ResourceId occlusionImage(EffectBuilder& graph, const OcclusionInputs& inputs) {
-    return inputs.coarseness == 1 ? graph.image(aov::ambientOcclusionRaw) : graph.image("ambient_occlusion_half", Format::r32f, inputs.coarseness);
+    return inputs.coarseness == 1 ? graph.image(aov::ambientOcclusionRaw)
+                                  : graph.image("ambient_occlusion_half", Format::r32f, inputs.coarseness);
 }
 
 void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, ResourceId image) {
@@ -26,7 +28,8 @@ void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, Resou
         Pass pass;
         pass.name = "upsample";
         pass.shader = "frame/upsample";
-        pass.reads = {{"source", image, inputs.coarseness}, {"coarseDepth", inputs.depth, inputs.coarseness}, {"depth", graph.read(aov::depth)}, {"normal", inputs.normal}};
+        pass.reads = {{"source", image, inputs.coarseness}, {"coarseDepth", inputs.depth, inputs.coarseness},
+            {"depth", graph.read(aov::depth)}, {"normal", inputs.normal}};
         pass.writes = {{"result", full}};
         pass.note = "4 texels per pixel";
         graph.add(std::move(pass));

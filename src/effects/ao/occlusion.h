@@ -23,8 +23,9 @@ OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution);
 /// The image that a technique writes.
 ResourceId occlusionImage(EffectBuilder& graph, const OcclusionInputs& inputs);
 
-/// Makes the image the picture's ambient occlusion; at half resolution after a pass that brings it to full resolution, each pixel from the
-/// four nearest texels, weighted by how well they lie in the pixel's plane (joint bilateral upsampling, Kopf et al. 2007).
+/// Makes the image the picture's ambient occlusion; at half resolution after a pass that brings it to full resolution,
+/// each pixel from the four nearest texels, weighted by how well they lie in the pixel's plane (joint bilateral
+/// upsampling, Kopf et al. 2007).
 void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, ResourceId image);
 
 /// Adds what every technique's shader needs to know: COARSENESS, FALLOFF.

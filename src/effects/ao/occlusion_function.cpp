@@ -1,13 +1,14 @@
-// Ambient occlusion by a function of depth differences: a few neighbours in the cardinal and intercardinal directions, each at a random distance.
-// Schmitt, "Screen Space Ambient Occlusion", 2008.
+// Ambient occlusion by a function of depth differences: a few neighbours in the cardinal and intercardinal directions,
+// each at a random distance. Schmitt, "Screen Space Ambient Occlusion", 2008.
 //
-// Reads depth and the geometric normal; writes ambient_occlusion_raw. Per neighbour Δ = (depth here − depth there)/max_distance goes through
-// `function`: 0 where the neighbour lies behind, rising quickly where it lies in front, falling again where it is too far to matter. The
-// result is 1 − the mean.
+// Reads depth and the geometric normal; writes ambient_occlusion_raw. Per neighbour Δ = (depth here − depth
+// there)/max_distance goes through `function`: 0 where the neighbour lies behind, rising quickly where it lies in
+// front, falling again where it is too far to matter. The result is 1 − the mean.
 //
-// Paper mode: neighbours up to a share of the picture away; those with a normal too like the pixel's are thrown out, and with them a card that
-// stands parallel to a wall. Default mode: neighbours up to the radius' image away, more than eight of them if asked, spread evenly; thrown out
-// is what does not stand above the pixel's own plane, so that planes are open at every tilt and the card still counts.
+// Paper mode: neighbours up to a share of the picture away; those with a normal too like the pixel's are thrown out,
+// and with them a card that stands parallel to a wall.
+// Default mode: neighbours up to the radius' image away, more than eight of them if asked, spread evenly; thrown out is
+// what does not stand above the pixel's own plane, so that planes are open at every tilt and the card still counts.
 
 #include "effects/ao/occlusion.h"
 
@@ -38,16 +39,26 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "How far off neighbours lie at most, and the unit of max_distance."}),
-    field<&Params::offsetIn>("offset_in", {.doc = "Neighbours up to the radius away in the scene, or up to max_offset in the picture as in the paper."}),
-    field<&Params::maxOffset>("max_offset", {.unit = "image widths", .min = 0, .max = 1, .doc = "Farthest neighbour in the picture when offset_in = \"image\"."}),
-    field<&Params::maxDistance>("max_distance", {.unit = "radii", .min = 1e-6, .max = 1e6, .doc = "Difference of depth at which the function ends."}),
-    field<&Params::samples>("samples", {.min = 1, .max = 128, .accuracy = true, .keyable = false, .doc = "Neighbours looked at."}),
-    field<&Params::function>("function", {.doc = "Points [difference, occlusion], both 0 to 1, differences rising; straight in between."}),
-    field<&Params::samePlane>("same_plane", {.doc = "Throw out neighbours in the pixel's plane, or with a normal like the pixel's as in the paper."}),
-    field<&Params::sameNormal>("same_normal", {.min = -1, .max = 1, .doc = "Cosine above which normals are alike (same_plane = \"normals\")."}),
-    field<&Params::sameHeight>("same_height", {.unit = "radii", .min = 0, .max = 1, .doc = "Neighbours no higher above the plane lie in it (same_plane = \"plane\")."}),
-    field<&Params::strength>("strength", {.min = 0, .max = 4, .doc = "Exponent on the result: above 1 darker, below 1 lighter."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9},
+        "How far off neighbours lie at most, and the unit of max_distance."),
+    field<&Params::offsetIn>("offset_in",
+        "Neighbours up to the radius away in the scene, or up to max_offset in the picture as in the paper."),
+    field<&Params::maxOffset>("max_offset", {.unit = "image widths", .min = 0, .max = 1},
+        "Farthest neighbour in the picture when offset_in = \"image\"."),
+    field<&Params::maxDistance>(
+        "max_distance", {.unit = "radii", .min = 1e-6, .max = 1e6}, "Difference of depth at which the function ends."),
+    field<&Params::samples>(
+        "samples", {.min = 1, .max = 128, .accuracy = true, .keyable = false}, "Neighbours looked at."),
+    field<&Params::function>(
+        "function", "Points [difference, occlusion], both 0 to 1, differences rising; straight in between."),
+    field<&Params::samePlane>(
+        "same_plane", "Throw out neighbours in the pixel's plane, or with a normal like the pixel's as in the paper."),
+    field<&Params::sameNormal>(
+        "same_normal", {.min = -1, .max = 1}, "Cosine above which normals are alike (same_plane = \"normals\")."),
+    field<&Params::sameHeight>("same_height", {.unit = "radii", .min = 0, .max = 1},
+        "Neighbours no higher above the plane lie in it (same_plane = \"plane\")."),
+    field<&Params::strength>(
+        "strength", {.min = 0, .max = 4}, "Exponent on the result: above 1 darker, below 1 lighter."),
 };
 
 constexpr int kTable = 256;
@@ -57,13 +68,15 @@ struct Constants {
     float radius = 0, perDistance = 1, offset = 0, sameNormal = 1, sameHeight = 0, strength = 1;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::table>("table", {.doc = "The occlusion function at 256 even differences, four to a vector."}),
-    field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Farthest neighbour in the scene."}),
-    field<&Constants::perDistance>("perDistance", {.doc = "1 over the difference at which the function ends, in normalized units."}),
-    field<&Constants::offset>("offset", {.unit = "pixels", .doc = "Farthest neighbour in the picture; 0: by the radius."}),
-    field<&Constants::sameNormal>("sameNormal", {.doc = "Cosine above which normals are alike."}),
-    field<&Constants::sameHeight>("sameHeight", {.unit = "normalized units", .doc = "Height up to which a neighbour lies in the plane."}),
-    field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
+    field<&Constants::table>("table", "The occlusion function at 256 even differences, four to a vector."),
+    field<&Constants::radius>("radius", {.unit = "normalized units"}, "Farthest neighbour in the scene."),
+    field<&Constants::perDistance>(
+        "perDistance", "1 over the difference at which the function ends, in normalized units."),
+    field<&Constants::offset>("offset", {.unit = "pixels"}, "Farthest neighbour in the picture; 0: by the radius."),
+    field<&Constants::sameNormal>("sameNormal", "Cosine above which normals are alike."),
+    field<&Constants::sameHeight>(
+        "sameHeight", {.unit = "normalized units"}, "Height up to which a neighbour lies in the plane."),
+    field<&Constants::strength>("strength", "Exponent on the result."),
 };
 
 /// The function through its control points: constant before the first and after the last.
@@ -73,7 +86,8 @@ double evaluate(const std::vector<glm::dvec2>& points, double x) {
     for (std::size_t i = 1; i < points.size(); ++i)
         if (x <= points[i].x) {
             const double width = points[i].x - points[i - 1].x;
-            return width > 0 ? points[i - 1].y + (points[i].y - points[i - 1].y) * (x - points[i - 1].x) / width : points[i].y;
+            return width > 0 ? points[i - 1].y + (points[i].y - points[i - 1].y) * (x - points[i - 1].x) / width
+                             : points[i].y;
         }
     return points.back().y;
 }
@@ -86,20 +100,26 @@ Constants derive(const Params& params, const View& view) {
     c.sameNormal = params.sameNormal;
     c.sameHeight = params.sameHeight * c.radius;
     c.strength = params.strength;
-    for (int i = 0; i < kTable; ++i) c.table[static_cast<std::size_t>(i / 4)][i % 4] = static_cast<float>(std::clamp(evaluate(params.function, i / (kTable - 1.0)), 0.0, 1.0));
+    for (int i = 0; i < kTable; ++i)
+        c.table[static_cast<std::size_t>(i / 4)][i % 4] =
+            static_cast<float>(std::clamp(evaluate(params.function, i / (kTable - 1.0)), 0.0, 1.0));
     return c;
 }
 
 void build(EffectBuilder& graph, const Params& params) {
     for (std::size_t i = 1; i < params.function.size(); ++i)
-        if (params.function[i].x < params.function[i - 1].x) throw Error(ExitCode::usage, {}, "the 'function' of [ao] (occlusion_function) turns back", "sort its points by their first number");
+        if (params.function[i].x < params.function[i - 1].x)
+            throw Error(ExitCode::usage, {}, "the 'function' of [ao] (occlusion_function) turns back",
+                "sort its points by their first number");
     const OcclusionInputs inputs = occlusionInputs(graph, Resolution::full);
     const bool inScene = params.offsetIn == OffsetIn::scene;
     const int halo = inScene ? graph.view().haloOf(graph.view().normalized(params.radius)) : 0;
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "occlusion_function";
-    pass.reads = {{"depth", inputs.depth, halo, inScene}, {"normal", inputs.normal, params.samePlane == SamePlane::normals ? halo : 0, params.samePlane == SamePlane::normals && inScene}};
+    pass.reads = {{"depth", inputs.depth, halo, inScene},
+        {"normal", inputs.normal, params.samePlane == SamePlane::normals ? halo : 0,
+            params.samePlane == SamePlane::normals && inScene}};
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, Falloff::none);
@@ -111,9 +131,11 @@ void build(EffectBuilder& graph, const Params& params) {
     publishOcclusion(graph, inputs, result);
 }
 
-const Technique kOcclusionFunction{"ao", "occlusion_function", "Depth differences to a few neighbours, through a function that says how much each hides (Schmitt).", kParams, build,
-                                   {{"paper", "As published: eight directions, offsets in the picture, neighbours with a like normal thrown out.",
-                                     "samples = 8, offset_in = 'image', max_offset = 0.03, same_plane = 'normals', same_normal = 0.95"}}};
+const Technique kOcclusionFunction{"ao", "occlusion_function",
+    "Depth differences to a few neighbours, through a function that says how much each hides (Schmitt).", kParams,
+    build,
+    {{"paper", "As published: eight directions, offsets in the picture, neighbours with a like normal thrown out.",
+        "samples = 8, offset_in = 'image', max_offset = 0.03, same_plane = 'normals', same_normal = 0.95"}}};
 
 }  // namespace ao_occlusion_function
 }  // namespace limn

@@ -1,9 +1,9 @@
-// Ambient occlusion by ray tracing (Embree), from the visible surfaces' positions and geometric normals: nothing that the camera does not
-// see is missing. With many rays it is the truth that the study measures by; with a few, and the filter "plane_aware", a technique like
-// the others.
+// Ambient occlusion by ray tracing (Embree), from the visible surfaces' positions and geometric normals: nothing that
+// the camera does not see is missing. With many rays it is the truth that the study measures by; with a few, and the
+// filter "plane_aware", a technique like the others.
 //
-// Reads depth and normal_geometric; writes ambient_occlusion_raw and, when asked, ambient_occlusion_error. Runs on the CPU's threads, for
-// just the pixels that show a surface.
+// Reads depth and normal_geometric; writes ambient_occlusion_raw and, when asked, ambient_occlusion_error. Runs on the
+// CPU's threads, for just the pixels that show a surface.
 
 #include "effects/technique.h"
 #include "reference/ambient_occlusion.h"
@@ -18,9 +18,10 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Farthest occluder that darkens a point."}),
-    field<&Params::rays>("rays", {.min = 1, .max = 65536, .accuracy = true, .keyable = false, .doc = "Rays per pixel and sample."}),
-    field<&Params::falloff>("falloff", {.doc = "How an occluder's weight falls with its distance, up to the radius."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9}, "Farthest occluder that darkens a point."),
+    field<&Params::rays>(
+        "rays", {.min = 1, .max = 65536, .accuracy = true, .keyable = false}, "Rays per pixel and sample."),
+    field<&Params::falloff>("falloff", "How an occluder's weight falls with its distance, up to the radius."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -33,7 +34,8 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.needs = SceneData::rays;
     const OcclusionQuery query{graph.view().normalized(params.radius), params.falloff, params.rays};
     pass.work = [query, view = graph.view()](HostWork& work) {
-        traceAmbientOcclusion(*work.rays, view, {work.reads[0].values, work.reads[1].values}, query, work.part, work.writes[0].values, work.writes[1].values);
+        traceAmbientOcclusion(*work.rays, view, {work.reads[0].values, work.reads[1].values}, query, work.part,
+            work.writes[0].values, work.writes[1].values);
     };
     pass.note = std::to_string(params.rays) + (params.rays == 1 ? " ray per pixel" : " rays per pixel");
     graph.add(std::move(pass));
@@ -42,7 +44,8 @@ void build(EffectBuilder& graph, const Params& params) {
     graph.publish(aov::ambientOcclusionError, error);
 }
 
-const Technique kRayTraced{"ao", "ray_traced", "Rays against the scene's triangles: the truth, at a price.", kParams, build};
+const Technique kRayTraced{
+    "ao", "ray_traced", "Rays against the scene's triangles: the truth, at a price.", kParams, build};
 
 }  // namespace ao_ray_traced
 }  // namespace limn

@@ -1,12 +1,13 @@
-// Ambient occlusion by visibility bitmasks: each slice through the line of sight keeps one bit per sector of its angles, so that light gets
-// past thin things on their far side too.
+// Ambient occlusion by visibility bitmasks: each slice through the line of sight keeps one bit per sector of its
+// angles, so that light gets past thin things on their far side too.
 // Therrien, Levesque, Gilet, "Screen Space Indirect Lighting with Visibility Bitmask", The Visual Computer 2023.
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// Departs from the paper in default mode: sectors hold equal shares of the cosine-weighted slice instead of equal angles; what lies between
-// neighbouring taps is hidden where both lie on one surface (join), so that `thickness` only has to stand for what the picture cannot
-// show, the depth of things behind their fronts; sectors that are covered in part count with that probability; evenly spaced steps stay.
+// Departs from the paper in default mode: sectors hold equal shares of the cosine-weighted slice instead of equal
+// angles; what lies between neighbouring taps is hidden where both lie on one surface (join), so that `thickness` only
+// has to stand for what the picture cannot show, the depth of things behind their fronts; sectors that are covered in
+// part count with that probability; evenly spaced steps stay.
 
 #include "effects/ao/occlusion.h"
 
@@ -36,17 +37,25 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9, .doc = "Farthest occluder that darkens a point."}),
-    field<&Params::slices>("slices", {.min = 1, .max = 64, .accuracy = true, .keyable = false, .doc = "Planes through the line of sight, per pixel and sample."}),
-    field<&Params::steps>("steps", {.min = 1, .max = 256, .accuracy = true, .keyable = false, .doc = "Most depths looked at on each side of a slice."}),
-    field<&Params::thickness>("thickness", {.unit = "radii", .min = 0, .max = 100, .doc = "How far things are taken to reach behind what is seen of them."}),
-    field<&Params::join>("join", {.doc = "Hide what lies between neighbouring taps of one surface; reads a normal per tap."}),
-    field<&Params::joinWithin>("join_within", {.unit = "pixel footprints", .min = 0, .max = 100, .doc = "Taps are of one surface where one lies on the other's tangent plane to within this, times the square root of the step in pixels."}),
-    field<&Params::sectors>("sectors", {.doc = "Sectors of equal cosine-weighted share, or of equal angle as in the paper."}),
-    field<&Params::stepGrowth>("step_growth", {.min = 0, .max = 1, .doc = "0: steps evenly spaced; 1: distances grow by the square, denser near the point."}),
-    field<&Params::falloff>("falloff", {.doc = "How an occluder's weight falls with its distance, up to the radius: as the probability that it counts."}),
-    field<&Params::resolution>("resolution", {.keyable = false, .doc = "Compute every pixel, or every second one each way."}),
-    field<&Params::strength>("strength", {.min = 0, .max = 4, .doc = "Exponent on the result: above 1 darker, below 1 lighter."}),
+    field<&Params::radius>("radius", {.unit = "scene units", .min = 1e-9}, "Farthest occluder that darkens a point."),
+    field<&Params::slices>("slices", {.min = 1, .max = 64, .accuracy = true, .keyable = false},
+        "Planes through the line of sight, per pixel and sample."),
+    field<&Params::steps>("steps", {.min = 1, .max = 256, .accuracy = true, .keyable = false},
+        "Most depths looked at on each side of a slice."),
+    field<&Params::thickness>("thickness", {.unit = "radii", .min = 0, .max = 100},
+        "How far things are taken to reach behind what is seen of them."),
+    field<&Params::join>("join", "Hide what lies between neighbouring taps of one surface; reads a normal per tap."),
+    field<&Params::joinWithin>("join_within", {.unit = "pixel footprints", .min = 0, .max = 100},
+        "Taps are of one surface where one lies on the other's tangent plane to within this, times the square root of "
+        "the step in pixels."),
+    field<&Params::sectors>("sectors", "Sectors of equal cosine-weighted share, or of equal angle as in the paper."),
+    field<&Params::stepGrowth>("step_growth", {.min = 0, .max = 1},
+        "0: steps evenly spaced; 1: distances grow by the square, denser near the point."),
+    field<&Params::falloff>("falloff",
+        "How an occluder's weight falls with its distance, up to the radius: as the probability that it counts."),
+    field<&Params::resolution>("resolution", {.keyable = false}, "Compute every pixel, or every second one each way."),
+    field<&Params::strength>(
+        "strength", {.min = 0, .max = 4}, "Exponent on the result: above 1 darker, below 1 lighter."),
 };
 
 struct Constants {
@@ -54,12 +63,13 @@ struct Constants {
     glm::vec2 turn{1, 0};
 };
 constexpr Field kConstants[] = {
-    field<&Constants::radius>("radius", {.unit = "normalized units", .doc = "Farthest occluder."}),
-    field<&Constants::thickness>("thickness", {.unit = "normalized units", .doc = "Depth of things behind their fronts."}),
-    field<&Constants::joinWithin>("joinWithin", {.unit = "pixel footprints", .doc = "How flat a surface is between two taps."}),
-    field<&Constants::stepGrowth>("stepGrowth", {.doc = "How much denser the steps are near the point."}),
-    field<&Constants::strength>("strength", {.doc = "Exponent on the result."}),
-    field<&Constants::turn>("turn", {.doc = "Cosine and sine of the angle between slices."}),
+    field<&Constants::radius>("radius", {.unit = "normalized units"}, "Farthest occluder."),
+    field<&Constants::thickness>("thickness", {.unit = "normalized units"}, "Depth of things behind their fronts."),
+    field<&Constants::joinWithin>(
+        "joinWithin", {.unit = "pixel footprints"}, "How flat a surface is between two taps."),
+    field<&Constants::stepGrowth>("stepGrowth", "How much denser the steps are near the point."),
+    field<&Constants::strength>("strength", "Exponent on the result."),
+    field<&Constants::turn>("turn", "Cosine and sine of the angle between slices."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -69,10 +79,13 @@ void build(EffectBuilder& graph, const Params& params) {
     const ResourceId result = occlusionImage(graph, inputs);
     Pass pass;
     pass.name = "visibility_bitmask";
-    pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)}, {"normal", inputs.normal, params.join ? halo : 0, params.join && !graph.view().holds(halo)}};
+    pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)},
+        {"normal", inputs.normal, params.join ? halo : 0, params.join && !graph.view().holds(halo)}};
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
-    pass.params = paramsBlock(kConstants, Constants{static_cast<float>(radius), static_cast<float>(params.thickness * radius), params.joinWithin, params.stepGrowth, params.strength, {std::cos(turn), std::sin(turn)}});
+    pass.params = paramsBlock(kConstants,
+        Constants{static_cast<float>(radius), static_cast<float>(params.thickness * radius), params.joinWithin,
+            params.stepGrowth, params.strength, {std::cos(turn), std::sin(turn)}});
     defineOcclusion(pass, inputs, params.falloff);
     if (params.join) pass.defines.emplace_back("JOIN", "");
     if (params.thickness > 0) pass.defines.emplace_back("THICK", "");
@@ -84,9 +97,13 @@ void build(EffectBuilder& graph, const Params& params) {
     publishOcclusion(graph, inputs, result);
 }
 
-const Technique kVisibilityBitmask{"ao", "visibility_bitmask", "Bits for the sectors of slices through the line of sight, so that thin things hide no more than they do (Therrien et al.).", kParams, build,
-                                   {{"paper", "As published: equal angles, and every tap a thing of one thickness.", "sectors = 'angle', join = false, thickness = 0.25"},
-                                    {"fine", "Nearly converged.", "slices = 8, steps = 32"}}};
+const Technique kVisibilityBitmask{"ao", "visibility_bitmask",
+    "Bits for the sectors of slices through the line of sight, so that thin things hide no more than they do (Therrien "
+    "et al.).",
+    kParams, build,
+    {{"paper", "As published: equal angles, and every tap a thing of one thickness.",
+         "sectors = 'angle', join = false, thickness = 0.25"},
+        {"fine", "Nearly converged.", "slices = 8, steps = 32"}}};
 
 }  // namespace ao_visibility_bitmask
 }  // namespace limn

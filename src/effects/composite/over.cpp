@@ -11,15 +11,15 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::background>("background", {.doc = "Colour where nothing is."}),
-    field<&Params::transparent>("transparent", {.doc = "Leave the background out."}),
+    field<&Params::background>("background", "Colour where nothing is."),
+    field<&Params::transparent>("transparent", "Leave the background out."),
 };
 
 struct Constants {
     glm::vec4 background{0};
 };
 constexpr Field kConstants[] = {
-    field<&Constants::background>("background", {.doc = "Linear, premultiplied; 0 in alpha for none."}),
+    field<&Constants::background>("background", "Linear, premultiplied; 0 in alpha for none."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -36,7 +36,9 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.defines.emplace_back("WITH_FACTOR", "");
     }
     pass.writes = {{"result", result}};
-    pass.params = paramsBlock(kConstants, Constants{params.transparent ? glm::vec4(0) : glm::vec4(params.background.r, params.background.g, params.background.b, 1)});
+    pass.params = paramsBlock(kConstants,
+        Constants{params.transparent ? glm::vec4(0)
+                                     : glm::vec4(params.background.r, params.background.g, params.background.b, 1)});
     graph.add(std::move(pass));
     graph.publish(aov::beauty, result);
 }

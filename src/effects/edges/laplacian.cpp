@@ -1,11 +1,12 @@
 // Outlines of chosen objects, after paper 002: the Laplacian of a mask in which they are white and all else is black.
 //
-// Reads depth, geometric normals and object numbers; with materials those too. Writes edges. Objects are chosen by name, material or number; without a
-// choice every object's boundary is drawn, found where neighbours have different numbers (a Laplacian of the numbers themselves would miss
-// the middle of 1|2|3).
+// Reads depth, geometric normals and object numbers; with materials those too. Writes edges. Objects are chosen by
+// name, material or number; without a choice every object's boundary is drawn, found where neighbours have different
+// numbers (a Laplacian of the numbers themselves would miss the middle of 1|2|3).
 //
-// Departs from the paper: the threshold of a mask's Laplacian is any difference at all, and the line has a width and runs where the
-// object ends, to a fraction of a pixel. Its unsigned target kept what the Laplacian has outside the object: side = "outer".
+// Departs from the paper: the threshold of a mask's Laplacian is any difference at all, and the line has a width and
+// runs where the object ends, to a fraction of a pixel. Its unsigned target kept what the Laplacian has outside the
+// object: side = "outer".
 
 #include "base/text.h"
 #include "effects/edges/stroke.h"
@@ -20,7 +21,7 @@ namespace edges_laplacian {
 
 struct Params {
     PictureLength width = PictureLength::pixels(2);
-    Color color{0.0103f, 0.0103f, 0.0103f};   // #1a1a1a
+    Color color{0.0103f, 0.0103f, 0.0103f};  // #1a1a1a
     float opacity = 1;
     std::vector<std::string> objects, materials;
     std::vector<double> ids;
@@ -28,20 +29,26 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::width>("width", {.unit = "picture", .min = 0, .max = 1000, .doc = "Width of the lines: pixels, \"0.35mm\" or \"0.2%\" of the image height."}),
-    field<&Params::color>("color", {.doc = "Colour of the lines."}),
-    field<&Params::opacity>("opacity", {.min = 0, .max = 1, .doc = "How much the lines cover; at 0 they are not even computed."}),
-    field<&Params::objects>("objects", {.doc = "Names of objects (of instances, or of parts of their files) to outline together; * and ? stand for any text and any letter."}),
-    field<&Params::materials>("materials", {.doc = "Names of materials whose surfaces are outlined with them."}),
-    field<&Params::ids>("ids", {.min = 1, .doc = "Numbers of objects, as the AOV object_id has them."}),
-    field<&Params::side>("side", {.doc = "Lines lie half on what they outline and half off it (both), wholly on it (inner), or wholly off it (outer)."}),
+    field<&Params::width>("width", {.unit = "picture", .min = 0, .max = 1000},
+        "Width of the lines: pixels, \"0.35mm\" or \"0.2%\" of the image height."),
+    field<&Params::color>("color", "Colour of the lines."),
+    field<&Params::opacity>(
+        "opacity", {.min = 0, .max = 1}, "How much the lines cover; at 0 they are not even computed."),
+    field<&Params::objects>("objects",
+        "Names of objects (of instances, or of parts of their files) to outline together; * and ? stand for any text "
+        "and any letter."),
+    field<&Params::materials>("materials", "Names of materials whose surfaces are outlined with them."),
+    field<&Params::ids>("ids", {.min = 1}, "Numbers of objects, as the AOV object_id has them."),
+    field<&Params::side>("side",
+        "Lines lie half on what they outline and half off it (both), wholly on it (inner), or wholly off it (outer)."),
 };
 
 struct Constants {
     int firstMaterialWord = 0;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::firstMaterialWord>("firstMaterialWord", {.doc = "Where the bits of materials begin among those of objects."}),
+    field<&Constants::firstMaterialWord>(
+        "firstMaterialWord", "Where the bits of materials begin among those of objects."),
 };
 
 /// A set of numbers from 0, a bit for each.
@@ -52,13 +59,18 @@ public:
     std::vector<std::uint32_t> words;
 };
 
-bool matches(const std::string& pattern, std::string_view name) { return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0; }
-
-void complain(const std::string& what, const std::string& pattern, const std::vector<std::string>& known) {
-    throw Error(ExitCode::usage, {}, fmt::format("laplacian: no {} is called '{}'", what, pattern), nameRemedy(pattern, known));
+bool matches(const std::string& pattern, std::string_view name) {
+    return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
 }
 
-struct Chosen { Bits objects, materials; };
+void complain(const std::string& what, const std::string& pattern, const std::vector<std::string>& known) {
+    throw Error(
+        ExitCode::usage, {}, fmt::format("laplacian: no {} is called '{}'", what, pattern), nameRemedy(pattern, known));
+}
+
+struct Chosen {
+    Bits objects, materials;
+};
 
 Chosen choose(const Params& params, const SceneFacts& scene) {
     std::size_t last = 0;
@@ -82,12 +94,17 @@ Chosen choose(const Params& params, const SceneFacts& scene) {
         std::vector<std::string> known;
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             known.push_back(scene.materials[i].name);
-            if (matches(pattern, scene.materials[i].name)) chosen.materials.set(i + 1), found = true;
+            if (matches(pattern, scene.materials[i].name)) {
+                chosen.materials.set(i + 1);
+                found = true;
+            }
         }
         if (!found) complain("material", pattern, known);
     }
     for (const double id : params.ids) {
-        if (id > static_cast<double>(last)) throw Error(ExitCode::usage, {}, fmt::format("laplacian: there is no object {}", id), fmt::format("numbers go to {}; the AOV object_id shows them", last));
+        if (id > static_cast<double>(last))
+            throw Error(ExitCode::usage, {}, fmt::format("laplacian: there is no object {}", id),
+                fmt::format("numbers go to {}; the AOV object_id shows them", last));
         chosen.objects.set(static_cast<std::size_t>(id));
     }
     return chosen;
@@ -99,7 +116,8 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "laplacian" + graph.layerSuffix();
     pass.rate = lineRate(graph);
-    pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}, {"objectId", graph.read(aov::objectId), 1}};
+    pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1},
+        {"objectId", graph.read(aov::objectId), 1}};
     pass.writes = {{"result", sides}};
     Constants constants;
     if (!params.objects.empty() || !params.materials.empty() || !params.ids.empty()) {
@@ -112,8 +130,10 @@ void build(EffectBuilder& graph, const Params& params) {
             pass.reads.push_back({"materialId", graph.read(aov::materialId), 1});
             words.insert(words.end(), chosen.materials.words.begin(), chosen.materials.words.end());
         }
-        constexpr std::size_t kMostWords = 4000;   // of the 16 KiB that every device gives to a uniform block
-        if (words.size() > kMostWords) throw Error(ExitCode::badData, {}, fmt::format("laplacian: of {} objects none can be chosen", 32 * words.size()), "join some");
+        constexpr std::size_t kMostWords = 4000;  // of the 16 KiB that every device gives to a uniform block
+        if (words.size() > kMostWords)
+            throw Error(ExitCode::badData, {},
+                fmt::format("laplacian: of {} objects none can be chosen", 32 * words.size()), "join some");
         pass.params = paramsBlock(kConstants, constants);
         appendWords(pass.params, "chosen", words);
     }
@@ -121,12 +141,14 @@ void build(EffectBuilder& graph, const Params& params) {
     graph.add(std::move(pass));
     Stroke stroke;
     stroke.object = {graph.view().pixels(params.width), params.color};
-    stroke.opacity = params.opacity, stroke.side = params.side;
+    stroke.opacity = params.opacity;
+    stroke.side = params.side;
     strokeLines(graph, sides, stroke);
 }
 
 const Technique kLaplacian{"edges", "laplacian", "Outlines of chosen objects, or of all (paper 002).", kParams, build,
-                           {{"paper", "As published: black, one pixel wide, outside the object.", "width = '1px', color = '#000000', side = 'outer'"}}};
+    {{"paper", "As published: black, one pixel wide, outside the object.",
+        "width = '1px', color = '#000000', side = 'outer'"}}};
 
 }  // namespace edges_laplacian
 }  // namespace limn

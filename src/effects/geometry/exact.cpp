@@ -1,7 +1,9 @@
-// Visible surfaces, exact: a visibility buffer (triangle ids at raster time) and one analytic evaluation per visible pixel.
+// Visible surfaces, exact: a visibility buffer (triangle ids at raster time) and one analytic evaluation per visible
+// pixel.
 //
-// After Burns & Hunt, "The Visibility Buffer", JCGT 2013; vertices are snapped to the rasterizer's grid in whole-picture pixels, and
-// the plane of each visible triangle is intersected with the pixel's ray in double precision. Depth error: half an ulp of float.
+// After Burns & Hunt, "The Visibility Buffer", JCGT 2013; vertices are snapped to the rasterizer's grid in
+// whole-picture pixels, and the plane of each visible triangle is intersected with the pixel's ray in double precision.
+// Depth error: half an ulp of float.
 
 #include "effects/geometry/outputs.h"
 
@@ -9,7 +11,8 @@ namespace limn {
 namespace geometry_exact {
 
 void build(EffectBuilder& graph, const NoParams&) {
-    const ResourceId visibility = graph.fineImage("visibility", graph.scene().triangleBits > 0 ? Format::r32ui : Format::rg32ui);
+    const ResourceId visibility =
+        graph.fineImage("visibility", graph.scene().triangleBits > 0 ? Format::r32ui : Format::rg32ui);
     const ResourceId zBuffer = graph.fineImage("z_buffer", Format::depth32f);
     Pass raster;
     raster.name = "visibility";
@@ -34,7 +37,8 @@ void build(EffectBuilder& graph, const NoParams&) {
     graph.add(std::move(resolve));
 }
 
-const Technique kExact{"geometry", "exact", "Triangle ids at raster time, then exact evaluation of just what is read, once per visible sample.", {}, build};
+const Technique kExact{"geometry", "exact",
+    "Triangle ids at raster time, then exact evaluation of just what is read, once per visible sample.", {}, build};
 
 }  // namespace geometry_exact
 }  // namespace limn

@@ -1,7 +1,7 @@
 // Visible surfaces, fast: a classic G-buffer through the hardware's interpolators (Saito & Takahashi, SIGGRAPH 1990).
 //
-// No second pass over the pixels, but every attribute is computed for hidden fragments too; depth is right to about 4e-7, and the picture depends on how the
-// driver interpolates.
+// No second pass over the pixels, but every attribute is computed for hidden fragments too; depth is right to about
+// 4e-7, and the picture depends on how the driver interpolates.
 
 #include "effects/geometry/outputs.h"
 

@@ -1,4 +1,5 @@
-// What every geometry technique promises: the AOVs that describe the visible surfaces. The plan keeps only those that are read.
+// What every geometry technique promises: the AOVs that describe the visible surfaces. The plan keeps only those that
+// are read.
 #pragma once
 
 #include "effects/technique.h"
@@ -6,11 +7,15 @@
 namespace limn {
 
 inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
-    const SceneData textures = (graph.scene().textured ? SceneData::textures | SceneData::uvs : SceneData::none) | (graph.scene().vertexColors ? SceneData::colors : SceneData::none);
+    const SceneData textures = (graph.scene().textured ? SceneData::textures | SceneData::uvs : SceneData::none)
+        | (graph.scene().vertexColors ? SceneData::colors : SceneData::none);
     const std::pair<const Aov*, SceneData> outputs[] = {
-        {&aov::depth, SceneData::none},      {&aov::normal, SceneData::normals},
-        {&aov::normalGeometric, SceneData::none}, {&aov::position, SceneData::none},
-        {&aov::albedo, SceneData::materials | textures}, {&aov::objectId, SceneData::none},
+        {&aov::depth, SceneData::none},
+        {&aov::normal, SceneData::normals},
+        {&aov::normalGeometric, SceneData::none},
+        {&aov::position, SceneData::none},
+        {&aov::albedo, SceneData::materials | textures},
+        {&aov::objectId, SceneData::none},
         {&aov::materialId, SceneData::materials},
         {&aov::lineRecord, SceneData::materials},
     };
@@ -18,7 +23,9 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
     for (const auto& [aov, needs] : outputs) {
         const ResourceId image = graph.image(*aov);
         // Directions: NO_NORMAL of shaders/lib/normals.glsl.
-        const glm::vec4 clear = aov == &aov::depth ? glm::vec4(kBackgroundDepth) : aov->isDirection ? glm::vec4(2, 0, 0, 0) : glm::vec4(0);
+        const glm::vec4 clear = aov == &aov::depth ? glm::vec4(kBackgroundDepth)
+            : aov->isDirection                     ? glm::vec4(2, 0, 0, 0)
+                                                   : glm::vec4(0);
         writes.push_back({std::string(aov->name), image, needs, clear});
         graph.publish(*aov, image);
     }

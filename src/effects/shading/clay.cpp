@@ -11,7 +11,7 @@ struct Params {
     Color color{1, 1, 1};
 };
 constexpr Field kParams[] = {
-    field<&Params::color>("color", {.doc = "Of the clay where it is open."}),
+    field<&Params::color>("color", "Of the clay where it is open."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -19,7 +19,10 @@ void build(EffectBuilder& graph, const Params& params) {
     Pass pass;
     pass.name = "clay";
     pass.reads = {{"depth", graph.read(aov::depth)}};
-    if (const auto ao = graph.find(aov::ambientOcclusion)) pass.reads.push_back({"ambientOcclusion", *ao}), pass.defines.emplace_back("WITH_AO", "");
+    if (const auto ao = graph.find(aov::ambientOcclusion)) {
+        pass.reads.push_back({"ambientOcclusion", *ao});
+        pass.defines.emplace_back("WITH_AO", "");
+    }
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kParams, params);
     graph.add(std::move(pass));

@@ -10,14 +10,15 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
+    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1},
+        "How much of the ambient occlusion is applied; at 0 it is not even computed."),
 };
 
 struct Constants {
     float aoStrength = 1;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::aoStrength>("aoStrength", {.doc = "0 none, 1 all of the ambient occlusion."}),
+    field<&Constants::aoStrength>("aoStrength", "0 none, 1 all of the ambient occlusion."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -35,7 +36,8 @@ void build(EffectBuilder& graph, const Params& params) {
     graph.publish(aov::shade, result);
 }
 
-const Technique kFlat{"shading", "flat", "The objects' own colours, without lights; ambient occlusion multiplies.", kParams, build};
+const Technique kFlat{
+    "shading", "flat", "The objects' own colours, without lights; ambient occlusion multiplies.", kParams, build};
 
 }  // namespace shading_flat
 }  // namespace limn

@@ -22,9 +22,13 @@ void readLighting(EffectBuilder& graph, Pass& pass, float aoStrength, Highlights
         pass.reads.push_back({"shadowMaps", *shadows});
         pass.reads.push_back({"normalGeometric", graph.read(aov::normalGeometric)});
         pass.defines.emplace_back("WITH_SHADOWS", "");
-        if (std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.shadow.present && l.kind == LightKind::point; })) pass.defines.emplace_back("POINT_SHADOWS", "");
+        if (std::any_of(lights.begin(), lights.end(),
+                [](const Light& l) { return l.shadow.present && l.kind == LightKind::point; }))
+            pass.defines.emplace_back("POINT_SHADOWS", "");
     }
-    const auto has = [&](LightKind kind) { return std::any_of(lights.begin(), lights.end(), [&](const Light& l) { return l.kind == kind; }); };
+    const auto has = [&](LightKind kind) {
+        return std::any_of(lights.begin(), lights.end(), [&](const Light& l) { return l.kind == kind; });
+    };
     if (has(LightKind::point) || has(LightKind::spot)) pass.defines.emplace_back("PLACED_LIGHTS", "");
     if (has(LightKind::spot)) pass.defines.emplace_back("SPOTS", "");
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(lights.size()));
@@ -32,7 +36,8 @@ void readLighting(EffectBuilder& graph, Pass& pass, float aoStrength, Highlights
     pass.note = std::to_string(lights.size()) + (lights.size() == 1 ? " light" : " lights");
 }
 
-void addLitShading(EffectBuilder& graph, std::string name, UniformBlock params, float aoStrength, Highlights highlights) {
+void addLitShading(
+    EffectBuilder& graph, std::string name, UniformBlock params, float aoStrength, Highlights highlights) {
     const ResourceId result = graph.image(aov::shade);
     Pass pass;
     pass.name = std::move(name);

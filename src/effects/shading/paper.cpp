@@ -1,7 +1,8 @@
-// A drawing on paper: everything in the colour of the sheet, with a tint of its own colour, darkened by ambient occlusion as by a wash.
+// A drawing on paper: everything in the colour of the sheet, with a tint of its own colour, darkened by ambient
+// occlusion as by a wash.
 //
-// Reads depth, albedo where there is a tint, ambient_occlusion where there is any; writes shade. Cut faces of sections keep their fill, and lie
-// in no shade: they are drawn, not seen.
+// Reads depth, albedo where there is a tint, ambient_occlusion where there is any; writes shade. Cut faces of sections
+// keep their fill, and lie in no shade: they are drawn, not seen.
 
 #include "effects/technique.h"
 
@@ -15,10 +16,11 @@ struct Params {
     float aoStrength = 1;
 };
 constexpr Field kParams[] = {
-    field<&Params::color>("color", {.doc = "Of the paper."}),
-    field<&Params::tint>("tint", {.min = 0, .max = 1, .doc = "How much of their own colours objects show."}),
-    field<&Params::washColor>("wash_color", {.doc = "Colour that ambient occlusion leads to, where nothing is open."}),
-    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
+    field<&Params::color>("color", "Of the paper."),
+    field<&Params::tint>("tint", {.min = 0, .max = 1}, "How much of their own colours objects show."),
+    field<&Params::washColor>("wash_color", "Colour that ambient occlusion leads to, where nothing is open."),
+    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1},
+        "How much of the ambient occlusion is applied; at 0 it is not even computed."),
 };
 
 void build(EffectBuilder& graph, const Params& params) {
@@ -41,7 +43,8 @@ void build(EffectBuilder& graph, const Params& params) {
     graph.publish(aov::shade, result);
 }
 
-const Technique kPaper{"shading", "paper", "Paper, tinted by the objects' colours and washed with ambient occlusion.", kParams, build};
+const Technique kPaper{
+    "shading", "paper", "Paper, tinted by the objects' colours and washed with ambient occlusion.", kParams, build};
 
 }  // namespace shading_paper
 }  // namespace limn

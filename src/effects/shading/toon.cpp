@@ -1,11 +1,14 @@
 // Toon shading: pass 4 of Lajzer & Nottingham, with lights, shadows and evenly spaced bands.
 //
-// Two passes: toon_light computes the intensity I = (sum of max(0, N·L)·shadow + ambient)·ao + extra_ambient + highlights, toon_bands
-// quantizes it. Reads depth, normal, albedo, material_id and, where there is any, ambient_occlusion; writes shade.
+// Two passes: toon_light computes the intensity I = (sum of max(0, N·L)·shadow + ambient)·ao + extra_ambient +
+// highlights, toon_bands quantizes it. Reads depth, normal, albedo, material_id and, where there is any,
+// ambient_occlusion; writes shade.
 //
-// Paper mode: floor(4·I)/4 of display-encoded colour, levels above 1 appear and clip, the half vector uses a constant view direction.
-// Default mode: exactly n bands, evenly spaced to the eye, the true view direction, band edges one pixel soft. A band begins at its
-// threshold less 1e-4, so that a face lit exactly at a threshold does not flicker with the last bit of its normal.
+// Paper mode: floor(4·I)/4 of display-encoded colour, levels above 1 appear and clip, the half vector uses a constant
+// view direction.
+// Default mode: exactly n bands, evenly spaced to the eye, the true view direction, band edges one pixel soft. A band
+// begins at its threshold less 1e-4, so that a face lit exactly at a threshold does not flicker with the last bit of
+// its normal.
 
 #include "effects/shading/lighting.h"
 
@@ -34,16 +37,24 @@ struct Params {
 };
 
 constexpr Field kParams[] = {
-    field<&Params::bands>("bands", {.min = 2, .max = kMaxBands, .keyable = false, .doc = "Number of brightness steps."}),
-    field<&Params::ambient>("ambient", {.min = 0, .max = 10, .doc = "Light that comes from everywhere and that ambient occlusion dims."}),
-    field<&Params::extraAmbient>("extra_ambient", {.min = 0, .max = 10, .doc = "Light that nothing dims: keeps shadows from going black."}),
-    field<&Params::specular>("specular", {.min = 0, .max = 10, .doc = "Strength of all highlights."}),
-    field<&Params::edgeSoftness>("edge_softness", {.unit = "pixels", .min = 0, .max = 64, .doc = "Width over which a band turns into the next; 0 = hard."}),
-    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1, .doc = "How much of the ambient occlusion is applied; at 0 it is not even computed."}),
-    field<&Params::floorLevel>("floor", {.min = 0, .max = 1, .doc = "Brightness of the darkest band, to the eye (0 black, 1 the full colour)."}),
-    field<&Params::trueViewDirection>("true_view_direction", {.doc = "Highlights follow the eye; false: as if seen from far away, as the paper does."}),
-    field<&Params::space>("space", {.doc = "Quantize what the eye sees of linear light, or display-encoded numbers as the paper does."}),
-    field<&Params::ramp>("ramp", {.doc = "A colour for each band, darkest first, instead of even greys; sets the number of bands."}),
+    field<&Params::bands>("bands", {.min = 2, .max = kMaxBands, .keyable = false}, "Number of brightness steps."),
+    field<&Params::ambient>(
+        "ambient", {.min = 0, .max = 10}, "Light that comes from everywhere and that ambient occlusion dims."),
+    field<&Params::extraAmbient>(
+        "extra_ambient", {.min = 0, .max = 10}, "Light that nothing dims: keeps shadows from going black."),
+    field<&Params::specular>("specular", {.min = 0, .max = 10}, "Strength of all highlights."),
+    field<&Params::edgeSoftness>("edge_softness", {.unit = "pixels", .min = 0, .max = 64},
+        "Width over which a band turns into the next; 0 = hard."),
+    field<&Params::aoStrength>("ao_strength", {.min = 0, .max = 1},
+        "How much of the ambient occlusion is applied; at 0 it is not even computed."),
+    field<&Params::floorLevel>(
+        "floor", {.min = 0, .max = 1}, "Brightness of the darkest band, to the eye (0 black, 1 the full colour)."),
+    field<&Params::trueViewDirection>(
+        "true_view_direction", "Highlights follow the eye; false: as if seen from far away, as the paper does."),
+    field<&Params::space>(
+        "space", "Quantize what the eye sees of linear light, or display-encoded numbers as the paper does."),
+    field<&Params::ramp>(
+        "ramp", "A colour for each band, darkest first, instead of even greys; sets the number of bands."),
 };
 
 struct LightConstants {
@@ -51,18 +62,18 @@ struct LightConstants {
     bool trueViewDirection = true;
 };
 constexpr Field kLightConstants[] = {
-    field<&LightConstants::ambient>("ambient", {.doc = "Light from everywhere, dimmed by ambient occlusion."}),
-    field<&LightConstants::extraAmbient>("extraAmbient", {.doc = "Light that nothing dims."}),
-    field<&LightConstants::specular>("specular", {.doc = "Strength of all highlights."}),
-    field<&LightConstants::aoStrength>("aoStrength", {.doc = "0 none, 1 all of the ambient occlusion."}),
-    field<&LightConstants::trueViewDirection>("trueViewDirection", {.doc = "Highlights from the true direction to the eye."}),
+    field<&LightConstants::ambient>("ambient", "Light from everywhere, dimmed by ambient occlusion."),
+    field<&LightConstants::extraAmbient>("extraAmbient", "Light that nothing dims."),
+    field<&LightConstants::specular>("specular", "Strength of all highlights."),
+    field<&LightConstants::aoStrength>("aoStrength", "0 none, 1 all of the ambient occlusion."),
+    field<&LightConstants::trueViewDirection>("trueViewDirection", "Highlights from the true direction to the eye."),
 };
 
 struct BandConstants {
     float edgeSoftness = 0;
 };
 constexpr Field kBandConstants[] = {
-    field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "pixels", .doc = "Width of the transition between bands."}),
+    field<&BandConstants::edgeSoftness>("edgeSoftness", {.unit = "pixels"}, "Width of the transition between bands."),
 };
 
 /// rgb: factor on the object's colour; a: intensity at which the band begins.
@@ -70,7 +81,7 @@ std::vector<glm::vec4> deriveBands(const Params& params) {
     std::vector<glm::vec4> bands;
     if (params.space == ToonSpace::display) {
         // floor(n·I)/n without an upper end: the levels above 1 clip when the colour is encoded.
-        for (int i = 0; i < 4 * params.bands; ++i) {   // up to four times the full colour
+        for (int i = 0; i < 4 * params.bands; ++i) {  // up to four times the full colour
             const float level = static_cast<float>(i) / static_cast<float>(params.bands);
             bands.emplace_back(glm::vec3(level), level);
         }
@@ -87,7 +98,8 @@ std::vector<glm::vec4> deriveBands(const Params& params) {
 }
 
 void build(EffectBuilder& graph, const Params& params) {
-    if (params.ramp.size() > kMaxBands) throw Error(ExitCode::usage, {}, "the 'ramp' of [shading] has more than 16 colours", "leave some out");
+    if (params.ramp.size() > kMaxBands)
+        throw Error(ExitCode::usage, {}, "the 'ramp' of [shading] has more than 16 colours", "leave some out");
     const bool colored = graph.scene().coloredLight;
     const ResourceId light = graph.image("toon_light", colored ? Format::rgba32f : Format::r32f);
     Pass pass;
@@ -96,7 +108,9 @@ void build(EffectBuilder& graph, const Params& params) {
     readLighting(graph, pass, params.aoStrength, params.specular > 0 ? Highlights::ofMaterials : Highlights::none);
     if (colored) pass.defines.emplace_back("COLORED_LIGHT", "");
     pass.writes = {{"result", light}};
-    pass.params = paramsBlock(kLightConstants, LightConstants{params.ambient, params.extraAmbient, params.specular, params.aoStrength, params.trueViewDirection});
+    pass.params = paramsBlock(kLightConstants,
+        LightConstants{
+            params.ambient, params.extraAmbient, params.specular, params.aoStrength, params.trueViewDirection});
     graph.add(std::move(pass));
 
     const ResourceId result = graph.image(aov::shade);
@@ -116,9 +130,11 @@ void build(EffectBuilder& graph, const Params& params) {
     graph.publish(aov::shade, result);
 }
 
-const Technique kToon{"shading", "toon", "Light in a few flat steps, with highlights and shadows (Lajzer & Nottingham).", kParams, build,
-                      {{"paper", "As published: floor(4·I)/4 of display-encoded colour, hard steps, highlights as if seen from far away.",
-                        "bands = 4, ambient = 0.1, extra_ambient = 0.2, edge_softness = 0, true_view_direction = false, space = 'display'"}}};
+const Technique kToon{"shading", "toon",
+    "Light in a few flat steps, with highlights and shadows (Lajzer & Nottingham).", kParams, build,
+    {{"paper", "As published: floor(4·I)/4 of display-encoded colour, hard steps, highlights as if seen from far away.",
+        "bands = 4, ambient = 0.1, extra_ambient = 0.2, edge_softness = 0, true_view_direction = false, space = "
+        "'display'"}}};
 
 }  // namespace shading_toon
 }  // namespace limn
