@@ -1,5 +1,5 @@
 # Turns the shader files into one C++ file:  cmake -DOUTPUT=… -DFOLDER=… -DSHADERS=a;b -P embed.cmake
-set(text "// Made from shaders/ by the build.\n#include \"frame/shaders.h\"\n\n#include <utility>\n\nnamespace limn {\nnamespace {\n\nconstexpr std::pair<std::string_view, std::string_view> kShaders[] = {\n")
+set(text "// Made from shaders/ by the build.\n#include \"gpu/shaders.h\"\n\n#include <utility>\n\nnamespace limn {\nnamespace {\n\nconstexpr std::pair<std::string_view, std::string_view> kShaders[] = {\n")
 foreach(shader IN LISTS SHADERS)
   file(READ ${FOLDER}/${shader} source)
   string(APPEND text "{\"${shader}\", R\"glsl(${source})glsl\"},\n")

@@ -64,6 +64,9 @@ struct Errors : std::exception {
 class ErrorCollector {
 public:
     void add(Error error) { errors_.list.push_back(std::move(error)); }
+    /// Runs `work`; what it throws is collected. False where it threw.
+    template <class Work>
+    bool run(Work&& work);
     bool empty() const { return errors_.list.empty(); }
     const std::vector<Error>& list() const { return errors_.list; }
 
@@ -73,6 +76,23 @@ public:
 private:
     Errors errors_;
 };
+
+/// Runs `work` and adds what it throws, Error or Errors, to `into`: for work on several threads, and for several files.
+template <class Work>
+void collect(std::vector<Error>& into, Work&& work) {
+    try {
+        work();
+    } catch (const Error& error) { into.push_back(error); } catch (const Errors& several) {
+        into.insert(into.end(), several.list.begin(), several.list.end());
+    }
+}
+
+template <class Work>
+bool ErrorCollector::run(Work&& work) {
+    const std::size_t before = errors_.list.size();
+    collect(errors_.list, work);
+    return errors_.list.size() == before;
+}
 
 /// The exit code that fits a failed system call (errno) while *creating or writing* a file.
 ExitCode exitCodeForWrite(int errorNumber);

@@ -114,12 +114,11 @@ std::string bytesText(std::uint64_t bytes) {
     return fmt::format("{:.1f} {}", amount, units[unit]);
 }
 
-Hash& Hash::add(const void* data, std::size_t size) {
-    const auto* byte = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ byte[i]) * 1099511628211ull;
-    return *this;
+std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
 }
-
-std::string Hash::hex() const { return fmt::format("{:016x}", value_); }
 
 }  // namespace limn

@@ -15,6 +15,9 @@ std::optional<std::string> nearestName(std::string_view word, std::span<const st
 /// "did you mean 'x'?" when something is near, else "it can be a, b or c".
 std::string nameRemedy(std::string_view word, std::span<const std::string> candidates);
 
+/// ASCII letters made small; all else as it is.
+std::string lowerCase(std::string_view text);
+
 /// "a, b or c"
 std::string joinOr(std::span<const std::string> words);
 
@@ -29,17 +32,5 @@ std::string jsonText(std::string_view text);
 
 /// "12.3 MiB"
 std::string bytesText(std::uint64_t bytes);
-
-/// Incremental 64-bit FNV-1a: for content keys, not for secrets.
-class Hash {
-public:
-    Hash& add(const void* data, std::size_t size);
-    Hash& add(std::string_view text) { return add(text.data(), text.size()); }
-    std::uint64_t value() const { return value_; }
-    std::string hex() const;
-
-private:
-    std::uint64_t value_ = 14695981039346656037ull;
-};
 
 }  // namespace limn

@@ -1,8 +1,7 @@
 // The commands. Each adds itself to the command line and runs when chosen; each returns the exit code.
 #pragma once
 
-#include "gl/device.h"
-#include "render/renderer.h"
+#include "job/session.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,12 +22,8 @@ void addMesh(CLI::App& app, Chosen& chosen);
 void addStudy(CLI::App& app, Chosen& chosen);
 void addDoctor(CLI::App& app, Chosen& chosen);
 
-/// Options that several commands share.
-struct DeviceFlags {
-    gl::DeviceOptions options;
-    std::string shaderFolder;
-    void add(CLI::App& command);
-};
+/// Options of the device that several commands share.
+void addDeviceFlags(CLI::App& command, SessionOptions& session);
 
 /// The parameter reference, as Markdown.
 std::string parameterReference();

@@ -13,7 +13,7 @@
 namespace limn::cli {
 namespace {
 
-ExitCode run(const DeviceFlags& flags) {
+ExitCode run(const SessionOptions& options) {
     fmt::print("limn {}\n\nEGL devices\n", kVersion);
     for (const auto& report : gl::probeDevices()) {
         fmt::print("  {}  {:<14} {}\n", report.index, report.name,
@@ -24,7 +24,7 @@ ExitCode run(const DeviceFlags& flags) {
     for (const char* variable : {"__EGL_VENDOR_LIBRARY_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS", "LIBGL_ALWAYS_SOFTWARE",
              "GALLIUM_DRIVER", "LP_NUM_THREADS", "MESA_SHADER_CACHE_DISABLE", "CUDA_VISIBLE_DEVICES"})
         if (const char* value = std::getenv(variable)) fmt::print("  {} = {}\n", variable, value);
-    const gl::Device device(flags.options);
+    const gl::Device device(options.device);
     const auto& limits = device.limits();
     fmt::print("\nchosen: {}, OpenGL {}\n", device.report().renderer, device.report().version);
     if (device.report().isSoftware)
@@ -44,11 +44,11 @@ ExitCode run(const DeviceFlags& flags) {
 }  // namespace
 
 void addDoctor(CLI::App& app, Chosen& chosen) {
-    auto flags = std::make_shared<DeviceFlags>();
+    auto options = std::make_shared<SessionOptions>();
     auto* command = app.add_subcommand(
         "doctor", "Show which devices and drivers were tried, which works and why the others do not");
-    flags->add(*command);
-    command->callback([flags, &chosen] { chosen = [flags] { return run(*flags); }; });
+    addDeviceFlags(*command, *options);
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 }  // namespace limn::cli

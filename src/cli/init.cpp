@@ -24,7 +24,7 @@ std::string tomlText(const std::string& text) {
 ExitCode run(const std::string& model, const std::string& folderText) {
     const std::filesystem::path folder = folderText;
     const LoadedScene loaded = loadScene(model);
-    const DrawScene scene = resolveFrame(loaded, {});
+    const SceneAt scene = sceneAt(loaded, {.sections = {}});
     const std::string name = std::filesystem::path(model).stem().string();
     const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
     for (const auto& path : {scenePath, configPath})
@@ -36,7 +36,7 @@ ExitCode run(const std::string& model, const std::string& folderText) {
     const auto relative =
         std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
     std::string materials;
-    for (const auto& material : loaded.meshes.front().poly.materialNames)
+    for (const auto& material : scene.meshes.front()->poly.materialNames)
         if (!material.empty())
             materials += fmt::format(
                 "#\n# [[material]]              # replaces the material of that name\n# name = {}\n# color = "

@@ -3,7 +3,8 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "render/inspect.h"
+#include "formats/inspect.h"
+#include "settings/document.h"
 
 #include <fmt/format.h>
 
@@ -21,17 +22,15 @@ ExitCode run(const Options& options) {
     ErrorCollector errors;
     std::string json;
     for (const auto& file : options.files) {
-        try {
+        errors.run([&] {
             const MeshFacts facts = inspectMesh(file);
             if (options.format == "json")
                 json += (json.empty() ? "" : ",\n") + meshFactsJson(facts);
             else
                 fmt::print("{}{}", file == options.files.front() ? "" : "\n", meshFactsText(facts));
-        } catch (const Error& error) { errors.add(error); } catch (const Errors& list) {
-            for (const auto& error : list.list) errors.add(error);
-        }
+        });
     }
-    if (options.format == "json") fmt::print("[\n{}\n]\n", json);
+    if (options.format == "json") fmt::print("{{\"version\": {}, \"meshes\": [\n{}\n]}}\n", kFormatVersion, json);
     std::fflush(stdout);
     errors.throwIfAny();
     return ExitCode::done;

@@ -15,52 +15,45 @@ struct PlanOptions {
     ConfigOverrides overrides;
     int frame = 0;
     bool measure = false;
-    DeviceFlags device;
+    SessionOptions session;
 };
 
 ExitCode runPlan(const PlanOptions& options) {
     const RenderConfig config = readRenderConfig(options.config, options.overrides);
-    LoadedScene loaded = loadScene(config);
-    const int frame = options.frame ? options.frame : loaded.scene.firstFrame();
-    goToFrame(loaded, frame);
+    Session session(options.session);
+    const int frame = options.frame ? options.frame : session.load(config).scene.firstFrame();
     std::vector<double> milliseconds;
-    int maxTextureSize = 16384;
     if (options.measure) {
-        Renderer renderer(options.device.options, options.device.shaderFolder);
-        maxTextureSize = std::min(renderer.device().limits().maxTextureSize, renderer.device().limits().maxViewport);
         RenderOptions measured;
         measured.measure = true;
-        renderer.render(config, loaded, frame, {});  // warms up: programs, textures
-        renderer.render(config, loaded, frame, measured);
-        for (const auto& pass : renderer.passTimes()) milliseconds.push_back(pass.milliseconds);
+        session.draw(config, frame);  // warms up: programs, textures
+        session.draw(config, frame, measured);
+        for (const auto& pass : session.renderer().passTimes()) milliseconds.push_back(pass.milliseconds);
     }
-    ExplainedPlan plan = planConfig(config, loaded, frame, maxTextureSize);
+    PlanReport plan = session.plan(config, frame);
     if (options.measure) plan.facts.emplace_back("times", "GPU milliseconds of all samples of one frame");
     const auto format = options.format == "json" ? PlanFormat::json
         : options.format == "dot"                ? PlanFormat::dot
                                                  : PlanFormat::text;
-    fmt::print("{}", explain(plan.frame.graph, plan.frame.plan, format, plan.facts, milliseconds));
+    fmt::print("{}", explain(plan.pipeline.graph, plan.pipeline.plan, format, plan.facts, milliseconds));
     return ExitCode::done;
 }
 
 ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides& overrides) {
     ErrorCollector errors;
-    for (const auto& path : configs) {
-        try {
+    for (const auto& path : configs)
+        errors.run([&] {
             const RenderConfig config = readRenderConfig(path, overrides);
-            LoadedScene loaded = loadScene(config);
+            Session session;
+            const LoadedScene& loaded = session.load(config);
+            const int first = loaded.scene.firstFrame();
             const auto& meshes = loaded.scene.meshes;
             if (std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) { return mesh.perFrame; }))
-                for (std::int64_t frame = loaded.scene.firstFrame();
-                     loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame)
-                    goToFrame(loaded, static_cast<int>(frame));
-            goToFrame(loaded, loaded.scene.firstFrame());
-            static_cast<void>(planConfig(config, loaded, loaded.scene.firstFrame()));
+                for (std::int64_t frame = first; loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame)
+                    static_cast<void>(loaded.meshes->at(static_cast<int>(frame)));
+            static_cast<void>(session.plan(config, first));
             log::info("{}: fine", path);
-        } catch (const Error& error) { errors.add(error); } catch (const Errors& several) {
-            for (const auto& error : several.list) errors.add(error);
-        }
-    }
+        });
     errors.throwIfAny();
     return ExitCode::done;
 }
@@ -83,7 +76,7 @@ void addPlan(CLI::App& app, Chosen& chosen) {
     command->add_option("--format", options->format, "text, json or dot")
         ->check(CLI::IsMember({"text", "json", "dot"}));
     command->add_flag("--measure", options->measure, "Draw a frame and add the milliseconds of each pass");
-    options->device.add(*command);
+    addDeviceFlags(*command, options->session);
     command->callback([options, &chosen] { chosen = [options] { return runPlan(*options); }; });
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 struct StudyOptions {
     std::string file, output;
-    DeviceFlags device;
+    SessionOptions session;
 };
 
 /// Grey where equal; darker where the picture is too dark, lighter where it is too light, four times over.
@@ -40,15 +40,16 @@ ExitCode runStudyCommand(const StudyOptions& options) {
         const Layer layer{"ambient_occlusion", {"Y"}, false, false, image};
         replaceFile(folder / (name + ".png"), encodeImage(FileFormat::png, {&layer, 1}, {}, {}));
     };
-    Renderer renderer(options.device.options, options.device.shaderFolder);
+    Session session(options.session);
     fmt::print("{}×{} pixels, truth by {} rays per pixel; times: fastest of {}, {}\n\n", study.settings.size.x,
-        study.settings.size.y, study.settings.rays, study.settings.repeat, renderer.device().report().renderer);
+        study.settings.size.y, study.settings.rays, study.settings.repeat,
+        session.renderer().device().report().renderer);
     fmt::print("{:<10} {:<7} {:<28} {:>7} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>8}  {}\n", "place", "camera",
         "method", "RMSE", "bias", "P99", "off shell", "ms", "µs/pixel", "transfer", "tree", "settings");
     std::string csv =
         "place,camera,method,rmse,bias,p99,shell_rmse,milliseconds,microseconds_per_pixel,transfer_milliseconds,tree_"
         "milliseconds,settings\n";
-    runStudy(renderer, study, [&](const StudyRow& row) {
+    runStudy(session, study, [&](const StudyRow& row) {
         fmt::print("{:<10} {:<7} {:<28} {:7.4f} {:+8.4f} {:7.4f} {:10.4f} {:9.2f} {:9.3f} {:9.2f} {:8.2f}  {}\n",
             row.place, row.camera, row.method, row.truth.rmse, row.truth.bias, row.truth.p99, row.shellRmse,
             row.milliseconds, row.microsecondsPerPixel, row.transferMilliseconds, row.treeMilliseconds, row.settings);
@@ -75,7 +76,7 @@ void addStudy(CLI::App& app, Chosen& chosen) {
     auto* command = app.add_subcommand("study", "Measure what accuracy costs in time, against the ray-traced truth");
     command->add_option("FILE", options->file, "Study file: places and methods")->required();
     command->add_option("--output", options->output, "Folder for study.csv and the pictures")->type_name("DIR");
-    options->device.add(*command);
+    addDeviceFlags(*command, options->session);
     command->callback([options, &chosen] { chosen = [options] { return runStudyCommand(*options); }; });
 }
 

@@ -2,6 +2,8 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "formats/scene_file.h"
+#include "settings/document.h"
 
 #include <fmt/format.h>
 
@@ -131,7 +133,7 @@ std::string parameterReference() {
                    section.doc, markdownTable(rows(section.schema, nullptr)))
             + "\n";
     out += "## Images (AOVs)\n\n| name | format | meaning |\n|---|---|---|\n";
-    for (const Aov* aov : aov::all)
+    for (const Aov* aov : allAovs())
         out += fmt::format("| `{}` | {} | {} |\n", aov->name, info(aov->format).name, aov->doc);
     return out;
 }

@@ -1,7 +1,8 @@
 #include "effects/technique.h"
 
 #include "base/text.h"
-#include "config/document.h"
+#include "settings/document.h"
+#include "stage/shadow_layout.h"
 
 #include <fmt/format.h>
 
@@ -60,10 +61,21 @@ std::optional<ResourceId> EffectBuilder::find(const Aov& aov) const {
     return it->second;
 }
 
-const TechniqueChoice* EffectBuilder::chosen(std::string_view slot, std::string_view technique) const {
+const TechniqueChoice* EffectBuilder::chosen(const Technique& technique) const {
     for (const auto* choice : choices_)
-        if (choice->technique->slot == slot && choice->technique->name == technique) return choice;
+        if (choice->technique == &technique) return choice;
     return nullptr;
+}
+
+void EffectBuilder::beginTechnique(const Slot& slot, std::string_view technique, int layer) {
+    beginPasses(std::string(slot.name), std::string(technique), slot.rate ? slot.rate(view_) : kEverySample);
+    layer_ = slot.fill == Slot::Fill::layers ? layer : 0;
+}
+
+void EffectBuilder::beginPasses(std::string slot, std::string technique, int rate) {
+    slot_ = std::move(slot);
+    technique_ = std::move(technique);
+    rate_ = rate;
 }
 
 ResourceId EffectBuilder::image(std::string name, Format format, int coarseness) {
@@ -72,15 +84,15 @@ ResourceId EffectBuilder::image(std::string name, Format format, int coarseness)
 
 ResourceId EffectBuilder::fineImage(std::string name, Format format) {
     usesFineRaster_ = true;
-    return graph_.add({std::move(name), format, view_.canvas.size * view_.split.raster, false});
+    return graph_.add({std::move(name), format, view_.canvas.size * view_.sampling.raster, false});
 }
 
 void EffectBuilder::add(Pass pass) {
     pass.slot = slot_;
     pass.technique = technique_;
     if (pass.shader.empty()) pass.shader = fmt::format("effects/{}/{}", slot_, technique_);
-    if (pass.rate == Pass::Rate::sample) pass.rate = rate_;
-    if (view_.split.samples() == 1) pass.rate = Pass::Rate::sample;  // all the same, and nothing need last
+    if (pass.rate == kEverySample) pass.rate = rate_;
+    if (pass.rate >= view_.sampling.samples()) pass.rate = kEverySample;  // nothing need last
     graph_.passes.push_back(std::move(pass));
 }
 
@@ -94,25 +106,30 @@ void EffectBuilder::defineSeen(Pass& pass) const {
     if (scene_.triangleBits > 0) pass.defines.emplace_back("TRIANGLE_BITS", std::to_string(scene_.triangleBits));
 }
 
+bool EffectBuilder::isUnified() const {
+    return std::any_of(graph_.passes.begin(), graph_.passes.end(),
+        [](const Pass& pass) { return has(pass.needs, SceneData::unifiedVertices); });
+}
+
 std::optional<ResourceId> EffectBuilder::shadowMaps() {
     if (shadowMaps_) return shadowMaps_;
     const ShadowLayout layout = shadowLayout(scene_.lights);
-    if (layout.drawings.empty()) return std::nullopt;
+    if (layout.maps.empty()) return std::nullopt;
     shadowMaps_ = graph_.add({"shadow_maps", Format::depth32f, layout.size, false});
     Pass pass;
     pass.name = "shadow_maps";
     pass.slot = "shadow";
     pass.technique = "shadow_map";
     pass.kind = Pass::Kind::raster;
-    pass.rate = Pass::Rate::frame;
-    pass.shader = "frame/shadow_map";
+    pass.rate = view_.sampling.samples() == 1 ? kEverySample : 1;
+    pass.shader = "scene/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;
     cutHoles(pass);
-    if (scene_.cutouts && chosen("geometry", "fast")) pass.defines.emplace_back("UNIFIED", "");
-    pass.drawings = layout.drawings;
+    if (scene_.cutouts && isUnified()) pass.defines.emplace_back("UNIFIED", "");
+    for (const auto& map : layout.maps) pass.drawings.push_back({map.viewport, map.number});
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
-    pass.note = fmt::format("{} map{}", layout.drawings.size(), layout.drawings.size() == 1 ? "" : "s");
+    pass.note = fmt::format("{} map{}", layout.maps.size(), layout.maps.size() == 1 ? "" : "s");
     graph_.passes.push_back(std::move(pass));
     return shadowMaps_;
 }
@@ -128,7 +145,7 @@ TechniqueChoice defaultChoice(std::string_view slot, std::string_view name) {
     if (!technique)
         throw Error(
             ExitCode::internal, {}, fmt::format("there is no {} technique '{}'", slot, name), "please report this");
-    return {technique, technique->makeParams(), {}, "default"};
+    return {technique, technique->makeParams(), {}};
 }
 
 void applySettings(TechniqueChoice& choice, std::string_view settings) {
@@ -139,8 +156,41 @@ void applySettings(TechniqueChoice& choice, std::string_view settings) {
     errors.throwIfAny();
 }
 
-TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what,
-    ErrorCollector& errors, std::span<const std::string_view> alsoKnown) {
+namespace {
+
+/// `mode` and `preset` of a section: settings that belong together, under what the section says itself.
+void readPresets(const Node& section, std::string_view what, TechniqueChoice& choice, ErrorCollector& errors) {
+    const Technique& technique = *choice.technique;
+    const auto apply = [&](const Node& node, std::string_view wanted) {
+        std::vector<std::string> names;
+        for (const auto& preset : technique.presets) {
+            if (preset.name == wanted) return applySettings(choice, preset.settings);
+            names.emplace_back(preset.name);
+        }
+        errors.add({ExitCode::usage, node.where,
+            fmt::format("{} technique '{}' has no preset '{}'", technique.slot, technique.name, wanted),
+            names.empty() ? "it has none" : nameRemedy(wanted, names)});
+    };
+    if (const Node* mode = section.find("mode")) {
+        const std::string* text = mode->text();
+        if (!text || (*text != "default" && *text != "paper"))
+            errors.add(
+                {ExitCode::usage, mode->where, fmt::format("'mode' in {} must be \"default\" or \"paper\"", what), ""});
+        else if (*text == "paper")
+            apply(*mode, "paper");
+    }
+    if (const Node* preset = section.find("preset")) {
+        if (preset->text())
+            apply(*preset, *preset->text());
+        else
+            errors.add({ExitCode::usage, preset->where, fmt::format("'preset' in {} must be text", what), ""});
+    }
+}
+
+}  // namespace
+
+TechniqueChoice readChoice(const Node& section, const Slot& slot, std::string_view what, ErrorCollector& errors,
+    std::span<const std::string_view> alsoKnown) {
     TechniqueChoice choice;
     if (!section.isTable() && !section.text()) {
         errors.add(
@@ -149,45 +199,21 @@ TechniqueChoice readChoice(const Node& section, std::string_view slot, std::stri
     }
     // A technique without settings may be given by its name alone.
     const Node* named = section.text() ? &section : section.find("technique");
-    const std::string name = named && named->text() ? *named->text() : std::string(fallback);
-    choice.technique = findTechnique(slot, name);
+    const std::string name = named && named->text() ? *named->text() : "";
+    choice.technique = findTechnique(slot.name, name);
     if (!choice.technique) {
-        const auto names = namesIn(slot);
+        const auto names = namesIn(slot.name);
         if (!named)
             errors.add({ExitCode::usage, section.where, fmt::format("{} has no 'technique'", what),
                 "it can be " + joinOr(names)});
         else
-            errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot, name),
+            errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot.name, name),
                 nameRemedy(name, names)});
         return choice;
     }
     choice.params = choice.technique->makeParams();
     if (section.text()) return choice;
-
-    const auto applyPreset = [&](const Node& node, std::string_view preset) {
-        std::vector<std::string> presets;
-        for (const auto& known : choice.technique->presets) {
-            if (known.name == preset) return applySettings(choice, known.settings);
-            presets.emplace_back(known.name);
-        }
-        errors.add(
-            {ExitCode::usage, node.where, fmt::format("{} technique '{}' has no preset '{}'", slot, name, preset),
-                presets.empty() ? "it has none" : nameRemedy(preset, presets)});
-    };
-    if (const Node* mode = section.find("mode")) {
-        const std::string* text = mode->text();
-        if (!text || (*text != "default" && *text != "paper"))
-            errors.add(
-                {ExitCode::usage, mode->where, fmt::format("'mode' in {} must be \"default\" or \"paper\"", what), ""});
-        else if (choice.mode = *text; *text == "paper")
-            applyPreset(*mode, "paper");
-    }
-    if (const Node* preset = section.find("preset")) {
-        if (preset->text())
-            applyPreset(*preset, *preset->text());
-        else
-            errors.add({ExitCode::usage, preset->where, fmt::format("'preset' in {} must be text", what), ""});
-    }
+    readPresets(section, what, choice, errors);
     std::vector<std::string_view> known{"technique", "mode", "preset"};
     known.insert(known.end(), alsoKnown.begin(), alsoKnown.end());
     readFields(section, choice.technique->schema, choice.params.get(), &choice.tracks,

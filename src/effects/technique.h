@@ -7,11 +7,12 @@
 // anonymous one: g++ 12 merges the accessors of members of one name in anonymous structs of one name, across files.
 #pragma once
 
-#include "base/params.h"
-#include "frame/aov.h"
-#include "frame/gpu_scene.h"
-#include "frame/view.h"
+#include "effects/slot.h"
 #include "graph/graph.h"
+#include "picture/aov.h"
+#include "picture/view.h"
+#include "settings/fields.h"
+#include "stage/facts.h"
 
 #include <map>
 #include <memory>
@@ -22,24 +23,14 @@
 
 namespace limn {
 
-/// Facts about the scene at a frame that an effect may build on.
-struct SceneFacts {
-    SceneInfo info;
-    std::span<const Light> lights;
-    std::span<const DrawInstance> instances;
-    std::span<const Material> materials;
-    bool textured = false;      ///< some drawn material has a texture
-    bool cutouts = false;       ///< some drawn material has holes
-    bool vertexColors = false;  ///< some drawn mesh has vertex colours, and a material that wants them
-    bool shiny = false;         ///< some drawn material has a highlight
-    bool coloredLight = false;  ///< some light is not grey
-    bool lineRecords = false;   ///< some object or material says something about its lines
-    bool sections = false;      ///< something is cut open
-    bool hatched = false;       ///< and its cut faces are hatched
-    int triangleBits = 0;       ///< of a number that names an instance and its triangle, where 32 bits can; else 0
-};
-
+struct Technique;
 struct TechniqueChoice;
+
+/// What a picture shows where nothing is.
+struct Background {
+    Color color{1, 1, 1};
+    bool transparent = false;
+};
 
 /// What an effect builds its passes with.
 class EffectBuilder {
@@ -67,27 +58,32 @@ public:
     /// Adds a pass; slot, technique and (unless given) shader are filled in.
     void add(Pass pass);
 
-    /// What a config says of techniques: for those that stand in two slots at once.
+    /// What a config chose, of all slots.
     void setChoices(std::vector<const TechniqueChoice*> choices) { choices_ = std::move(choices); }
-    /// The choice of a technique in a slot, if it is there.
-    const TechniqueChoice* chosen(std::string_view slot, std::string_view technique) const;
+    /// The config's choice of a technique, if it is there: for one that stands in two slots at once, about itself.
+    const TechniqueChoice* chosen(const Technique& technique) const;
+
+    /// What lies behind everything.
+    const Background& background() const { return background_; }
+    void setBackground(const Background& background) { background_ = background; }
 
     /// The shadow maps of all lights that cast one, as one image; nullopt when none does.
     std::optional<ResourceId> shadowMaps();
 
+    /// Do vertices have one number for all attributes?
+    bool isUnified() const;
     /// Lets the pass's shaders see the holes that materials cut (CUTOUTS), where there are any.
     void cutHoles(Pass& pass) const;
     /// Tells the pass's shaders how the visibility buffer names triangles.
     void defineSeen(Pass& pass) const;
 
-    /// `rate`: of its passes that do not say.
-    void beginTechnique(std::string slot, std::string technique, Pass::Rate rate = Pass::Rate::sample) {
-        slot_ = std::move(slot), technique_ = std::move(technique), rate_ = rate;
-    }
+    /// What is added from now on belongs to this technique, number `layer` of those that fill its slot.
+    void beginTechnique(const Slot& slot, std::string_view technique, int layer = 0);
+    /// What is added from now on belongs to no slot's technique; `rate`: see picture/sampling.h.
+    void beginPasses(std::string slot, std::string technique, int rate);
     /// For techniques of slots that do with a part of the samples, if they are sharp.
-    void useEverySample() { rate_ = Pass::Rate::sample; }
+    void useEverySample() { rate_ = kEverySample; }
     /// A unique suffix for layered slots ("edges" twice), or "".
-    void setLayer(int layer) { layer_ = layer; }
     std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }
 
 private:
@@ -97,8 +93,9 @@ private:
     std::map<std::string_view, ResourceId> published_;
     std::optional<ResourceId> shadowMaps_;
     std::vector<const TechniqueChoice*> choices_;
+    Background background_;
     std::string slot_, technique_;
-    Pass::Rate rate_ = Pass::Rate::sample;
+    int rate_ = kEverySample;
     int layer_ = 0;
     bool usesFineRaster_ = false;
 };
@@ -160,7 +157,6 @@ struct TechniqueChoice {
     const Technique* technique = nullptr;
     std::shared_ptr<void> params;
     std::vector<Track> tracks;
-    std::string mode = "default";
 
     /// The settings at a frame.
     std::shared_ptr<void> at(double frame) const;
@@ -168,10 +164,10 @@ struct TechniqueChoice {
 
 /// A technique as it is when nothing is said but its name. Throws Error (internal) if there is none.
 TechniqueChoice defaultChoice(std::string_view slot, std::string_view name);
-/// Reads `technique`, `mode`, `preset` and the parameters of a section. Problems go to `errors`; `fallback` names the
-/// technique when the section does not (empty: it must). `alsoKnown` are keys that somebody else reads.
-TechniqueChoice readChoice(const Node& section, std::string_view slot, std::string_view fallback, std::string_view what,
-    ErrorCollector& errors, std::span<const std::string_view> alsoKnown = {});
+/// Reads a slot's section: `technique`, `mode`, `preset` and the parameters, or the technique's name alone. Problems go
+/// to `errors`; `alsoKnown` are keys that somebody else reads.
+TechniqueChoice readChoice(const Node& section, const Slot& slot, std::string_view what, ErrorCollector& errors,
+    std::span<const std::string_view> alsoKnown = {});
 
 /// A setting of a choice changed from TOML text, as tests and studies do. Throws Errors.
 void applySettings(TechniqueChoice& choice, std::string_view settings);

@@ -49,7 +49,8 @@ static Id makeBuffer(std::size_t size, const void* data, const std::string& name
     label(GL_BUFFER, id, name);
     // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(size, sizeof nothing)), size > 0 ? data : &nothing,
+    const bool isEmpty = size == 0;
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(isEmpty ? sizeof nothing : size), isEmpty ? &nothing : data,
         GL_DYNAMIC_STORAGE_BIT | (mappable ? GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT : GLbitfield{0}));
     return id;
 }
@@ -67,9 +68,23 @@ Mapping::Mapping(const Buffer& buffer)
 }
 Mapping::~Mapping() { glUnmapNamedBuffer(buffer_); }
 
-void Buffer::write(std::span<const std::byte> data) {
-    if (!data.empty()) glNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(data.size()), data.data());
+Buffer Buffer::withSize(std::size_t size, const std::string& name, bool mappable) {
+    Buffer buffer;
+    buffer.handle_ = Handle<releaseBuffer>(makeBuffer(size, nullptr, name, mappable));
+    buffer.size_ = size;
+    if (glGetError() == GL_OUT_OF_MEMORY) outOfMemory(name);
+    return buffer;
 }
+
+void Buffer::write(std::span<const std::byte> data, std::size_t offset) {
+    if (!data.empty())
+        glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::copyFrom(const Buffer& other, std::size_t bytes) {
+    if (bytes > 0) glCopyNamedBufferSubData(other.id(), id(), 0, 0, static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::bindUniform(int slot) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(slot), id()); }
 
 BufferView::BufferView(const Buffer& buffer, Element element, const std::string& name) {

@@ -2,7 +2,7 @@
 // No GL name leaves this folder.
 #pragma once
 
-#include "graph/format.h"
+#include "picture/format.h"
 
 #include <glm/glm.hpp>
 
@@ -53,7 +53,11 @@ public:
     Buffer() = default;
     /// `mappable`: Mapping works on it; GPUs may keep such a buffer where they are slower to read it.
     Buffer(std::span<const std::byte> data, const std::string& label, bool mappable = false);
-    void write(std::span<const std::byte> data);  ///< same size as made with
+    /// Bytes that nobody has written yet.
+    static Buffer withSize(std::size_t size, const std::string& label, bool mappable = false);
+    void write(std::span<const std::byte> data, std::size_t offset = 0);
+    /// The first bytes of another buffer, moved without leaving the device.
+    void copyFrom(const Buffer& other, std::size_t bytes);
     void bindUniform(int slot) const;
     std::size_t size() const { return size_; }
     Id id() const { return handle_.get(); }
@@ -215,7 +219,7 @@ public:
 };
 
 void dispatch(glm::ivec2 size, glm::ivec2 group);      ///< enough groups to cover the size, then a barrier
-void drawScreen();                                     ///< the three vertices of shaders/frame/screen.vert
+void drawScreen();                                     ///< the three vertices of shaders/gpu/screen.vert
 void drawPoints(int count, int size);                  ///< squares of so many pixels
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
 void setViewport(glm::ivec2 origin, glm::ivec2 size);

@@ -1,5 +1,6 @@
 #include "base/text.h"
 #include "graph/graph.h"
+#include "settings/document.h"
 
 #include <fmt/format.h>
 
@@ -58,7 +59,7 @@ public:
     }
 
     std::string json() const {
-        std::string out = "{\n  \"facts\": {";
+        std::string out = fmt::format("{{\n  \"version\": {},\n  \"facts\": {{", kFormatVersion);
         std::vector<std::string> items;
         for (const auto& [name, value] : facts_) items.push_back(jsonText(name) + ": " + jsonText(value));
         out += joined(items, ", ") + "},\n  \"passes\": [\n";
@@ -137,18 +138,12 @@ private:
             if (has(plan_.sceneData, flag)) names.emplace_back(text);
         return names;
     }
-    static std::string_view rate(const Pass& p) {
-        switch (p.rate) {
-            case Pass::Rate::frame: return "once per frame";
-            case Pass::Rate::subFrame: return "once per sub-frame";
-            case Pass::Rate::line: return "samples that find lines";
-            case Pass::Rate::occlusion: return "samples that find occlusion";
-            case Pass::Rate::sample: break;
-        }
-        return "every sample";
+    std::string rate(const Pass& p) const {
+        if (p.rate == kEverySample) return "every sample";
+        return p.rate == 1 ? "once per frame" : fmt::format("{} of {} samples", p.rate, graph_.samples);
     }
-    static std::vector<std::string> remarks(const Pass& p) {
-        std::vector<std::string> all{std::string(rate(p))};
+    std::vector<std::string> remarks(const Pass& p) const {
+        std::vector<std::string> all{rate(p)};
         if (p.kind == Pass::Kind::host) all.emplace_back("on the CPU");
         if (!p.note.empty()) all.push_back(p.note);
         return all;
@@ -159,7 +154,7 @@ private:
             "    {{\"name\": {}, \"slot\": {}, \"technique\": {}, \"culled\": {}, \"reason\": {}, \"reads\": {}, "
             "\"writes\": {}, \"not_made\": {}, \"runs\": {}, \"note\": {}{}}}",
             jsonText(p.name), jsonText(p.slot), jsonText(p.technique), culled, jsonText(reason), jsonList(reads(p)),
-            jsonList(written), jsonList(dropped), jsonText(std::string(rate(p))), jsonText(p.note),
+            jsonList(written), jsonList(dropped), jsonText(rate(p)), jsonText(p.note),
             culled || ms_.empty() ? "" : fmt::format(", \"milliseconds\": {:.3f}", ms_[i]));
     }
 

@@ -4,8 +4,11 @@
 // The same holds for each single thing it writes: a texture that nobody reads is neither made nor attached.
 #pragma once
 
-#include "base/uniform_block.h"
-#include "graph/format.h"
+#include "picture/format.h"
+#include "picture/pixel_rect.h"
+#include "picture/sampling.h"
+#include "picture/view.h"
+#include "settings/uniform_block.h"
 
 #include <glm/glm.hpp>
 
@@ -63,7 +66,7 @@ struct Write {
     ResourceId resource;
     SceneData needs = SceneData::none;  ///< scene data read only to write this
     glm::vec4 clear{0};                 ///< raster passes: what stands where nothing is drawn
-    bool mean = false;                  ///< compute passes: the image is the mean of what all samples of a frame write
+    bool sums = false;                  ///< compute passes: the image is the sum of what all samples of a frame write
 };
 
 /// One drawing of the scene into a part of a raster pass's images.
@@ -72,7 +75,10 @@ struct Drawing {
     int number = 0;          ///< what the shader's uniform `drawing` says
 };
 
-class RayScene;
+/// What host passes see of the scene. The graph hands it on without knowing it: rays/ray_scene.h is one.
+struct HostScene {
+    virtual ~HostScene() = default;
+};
 
 /// An image in memory, as host passes see it: rows from the lower left, channels side by side.
 struct HostImage {
@@ -81,14 +87,10 @@ struct HostImage {
     std::vector<float> values;
 };
 
-struct PixelRect {
-    glm::ivec2 origin{0};  ///< from the lower left
-    glm::ivec2 size{0};
-};
-
 /// What a host pass works on. Images of `writes` that nobody reads are empty.
 struct HostWork {
-    const RayScene* rays = nullptr;  ///< where the pass needs SceneData::rays
+    const View* view = nullptr;        ///< the sample's
+    const HostScene* scene = nullptr;  ///< where the pass needs SceneData::rays: a RayScene
     std::vector<HostImage> reads, writes;
     PixelRect part;  ///< of the images: only this is asked for
 };
@@ -100,15 +102,14 @@ struct Pass {
     /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending
     /// them on.
     enum class Kind { compute, raster, host };
-    /// How often it runs: for every sample; for those in which ambient occlusion, or lines, are found; for the first of
-    /// each sub-frame or frame. What a pass makes is kept until it runs again, where something reads it that runs in
-    /// between.
-    enum class Rate { sample, occlusion, line, subFrame, frame };
-
     std::string name;
     std::string slot, technique;
     Kind kind = Kind::compute;
-    Rate rate = Rate::sample;
+    /// In how many of a frame's samples it runs (picture/sampling.h). What it makes is kept until it runs again, where
+    /// something reads it that runs in between.
+    int rate = kEverySample;
+    /// What it makes depends on the canvas that it is drawn into, in the last bits: its tiles are whole canvases.
+    bool isTiedToCanvas = false;
     std::string shader;  ///< path below shaders/ without extension
     std::vector<std::pair<std::string, std::string>> defines;
     std::vector<Read> reads;
@@ -127,6 +128,7 @@ struct Graph {
     std::vector<Resource> resources;
     std::vector<Pass> passes;
     std::vector<std::string> absent;  ///< slots that were not asked for, for the explanation
+    int samples = 1;                  ///< of a frame
 
     ResourceId add(Resource resource) {
         resources.push_back(std::move(resource));

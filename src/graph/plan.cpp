@@ -23,7 +23,7 @@ void spreadDemand(const Graph& graph, Plan& plan, std::span<const Wanted> wanted
     }
     for (auto planned = plan.passes.rbegin(); planned != plan.passes.rend(); ++planned) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned->pass)];
-        const bool isPerSample = pass.rate == Pass::Rate::sample;
+        const bool isPerSample = pass.rate == kEverySample;
         if (isPerSample) {
             planned->halo = 0;
             planned->whole = false;
@@ -130,10 +130,8 @@ private:
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
         // What is read by what runs when it is not made anew must last from one run to the next.
-        const auto makesFor = [](Pass::Rate writer, Pass::Rate reader) {
-            return writer == reader || writer == Pass::Rate::sample;
-        };
-        std::vector<Pass::Rate> rateOf(graph_.resources.size(), Pass::Rate::sample);
+        const auto makesFor = [](int writer, int reader) { return writer == reader || writer == kEverySample; };
+        std::vector<int> rateOf(graph_.resources.size(), kEverySample);
         std::vector<bool> mustLast(graph_.resources.size(), false);
         for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
             const Pass& pass = graph_.passes[static_cast<std::size_t>(plan_.passes[i].pass)];
@@ -148,7 +146,7 @@ private:
         }
         for (const auto& want : wanted_) {
             lastUse[index(want.resource)] = kForever;
-            mustLast[index(want.resource)] = rateOf[index(want.resource)] != Pass::Rate::sample;
+            mustLast[index(want.resource)] = rateOf[index(want.resource)] != kEverySample;
         }
 
         plan_.textureOf.assign(graph_.resources.size(), -1);

@@ -1,9 +1,9 @@
 #include "image/image.h"
 
-#include "base/color.h"
 #include "base/error.h"
 #include "base/in_order.h"
 #include "image/codecs.h"
+#include "settings/color.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

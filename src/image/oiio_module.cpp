@@ -1,8 +1,8 @@
 // The part of limn that links OpenImageIO: built as limn-oiio.so.
 
-#include "base/color.h"
 #include "base/error.h"
 #include "image/codecs.h"
+#include "settings/color.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -1,10 +1,9 @@
 #include "render/config.h"
 
-#include "base/color.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "config/document.h"
 #include "scene/frames.h"
+#include "settings/document.h"
 
 #include <fmt/format.h>
 
@@ -17,15 +16,12 @@ namespace {
 struct Header {
     std::string scene, camera, frames;
     std::vector<std::string> sections;
-    Accuracy accuracy = Accuracy::exact;
 };
 constexpr Field kHeader[] = {
     field<&Header::scene>("scene", {.required = true}, "Scene file or OBJ, relative to this file."),
     field<&Header::camera>("camera", "Name of the camera; the scene's first if left out."),
     field<&Header::sections>(
         "sections", "Names of the scene's sections to cut it open by; those without a name always do."),
-    field<&Header::accuracy>(
-        "accuracy", "\"exact\": analytic evaluation per pixel; \"fast\": the hardware's interpolation."),
     field<&Header::frames>("frames", "Range of frames to draw, such as \"1-24\"; narrows the scene's."),
 };
 
@@ -109,19 +105,18 @@ public:
         : document_(std::move(document)), overrides_(overrides) {
         for (const auto& setting : overrides.settings) applySetting(document_, setting);
         config_.file = path;
-        config_.hash = Hash()
-                           .add(canonicalText(document_))
-                           .add(overrides.camera)
-                           .add(overrides.subdivide ? std::to_string(*overrides.subdivide) : "")
-                           .hex();
+        KeyBuilder key;
+        key.add(canonicalText(document_)).add(overrides.camera).add(overrides.subdivide.value_or(-1));
+        config_.hash = key.key().hex();
     }
 
     RenderConfig read() {
-        static constexpr std::string_view sections[] = {"image", "sheet", "shading", "ao", "edges", "output"};
+        std::vector<std::string_view> sections{"version", "image", "sheet", "output"};
+        for (const auto& slot : allSlots())
+            if (slot.parent().empty()) sections.push_back(slot.key);
         Header header;
+        readVersion(document_, "the config", errors_);
         readFields(document_, kHeader, &header, nullptr, "the config", errors_, sections);
-        config_.accuracy = header.accuracy;
-        config_.geometry = defaultChoice("geometry", enumNames<Accuracy>[static_cast<std::size_t>(header.accuracy)]);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
         config_.subdivide = overrides_.subdivide;
         config_.sections = header.sections;
@@ -136,7 +131,7 @@ public:
                 "write for example \"1-24\"");
         readImage();
         readSheet();
-        readEffects();
+        readSlots();
         readOutput();
         errors_.throwIfAny();
         return std::move(config_);
@@ -200,34 +195,27 @@ private:
             fail(*node->find("scale"), fmt::format("'{}' is no scale", sheet.scale), "write for example \"1:50\"");
     }
 
-    void readEffects() {
-        const Node* shading = document_.find("shading");
-        config_.shading =
-            shading ? readChoice(*shading, "shading", "", "[shading]", errors_) : defaultChoice("shading", "flat");
-        if (const Node* ao = document_.find("ao")) {
-            static constexpr std::string_view alsoKnown[] = {"filter"};
-            config_.ao = readChoice(*ao, "ao", "", "[ao]", errors_, alsoKnown);
-            if (const Node* filter = ao->find("filter")) {
-                if (filter->isArray())
-                    for (const auto& entry : filter->array())
-                        config_.aoFilters.push_back(readChoice(entry, "filter", "", "filter of [ao]", errors_));
-                else
-                    config_.aoFilters.push_back(readChoice(*filter, "filter", "", "filter of [ao]", errors_));
-            }
+    /// What fills a slot, from the node of its key.
+    void readSlot(const Slot& slot, const Node& node) {
+        auto& choices = config_.choices[std::string(slot.name)];
+        std::vector<std::string_view> children;
+        for (const auto& other : allSlots())
+            if (other.parent() == slot.key) children.push_back(other.ownKey());
+        if (node.isArray() && slot.fill != Slot::Fill::one)
+            for (const auto& entry : node.array())
+                choices.push_back(readChoice(entry, slot, slot.label(), errors_, children));
+        else
+            choices.push_back(readChoice(node, slot, slot.label(), errors_, children));
+    }
+
+    void readSlots() {
+        for (const auto& slot : allSlots()) {
+            const Node* section = slot.parent().empty() ? &document_ : document_.find(slot.parent());
+            if (const Node* node = section ? section->find(slot.ownKey()) : nullptr)
+                readSlot(slot, *node);
+            else if (!slot.fallback.empty())
+                config_.choices[std::string(slot.name)].push_back(defaultChoice(slot.name, slot.fallback));
         }
-        if (const Node* edges = document_.find("edges")) {
-            if (edges->isArray())
-                for (const auto& layer : edges->array())
-                    config_.edges.push_back(readChoice(layer, "edges", "", "[[edges]]", errors_));
-            else
-                config_.edges.push_back(readChoice(*edges, "edges", "", "[edges]", errors_));
-        }
-        config_.composite = defaultChoice("composite", "over");
-        // What [image] says of the background is the composite's business.
-        applySettings(config_.composite,
-            config_.image.transparent ? "transparent = true"
-                                      : fmt::format("background = [{}, {}, {}]", config_.image.background.r,
-                                          config_.image.background.g, config_.image.background.b));
     }
 
     void readOutput() {
@@ -259,7 +247,7 @@ private:
         if (!node.isArray())
             return fail(node, "'aovs' in [output] must be a list of names", "write aovs = [\"beauty\", \"depth\"]");
         std::vector<std::string> names;
-        for (const Aov* aov : aov::all) names.emplace_back(aov->name);
+        for (const Aov* aov : allAovs()) names.emplace_back(aov->name);
         for (const auto& entry : node.array()) {
             const Aov* aov = entry.text() ? findAov(*entry.text()) : nullptr;
             if (!aov)
@@ -268,20 +256,36 @@ private:
             else if (std::find(config_.output.aovs.begin(), config_.output.aovs.end(), aov)
                 == config_.output.aovs.end())
                 config_.output.aovs.push_back(aov);
-            if (aov && !available(*aov))
-                fail(entry, fmt::format("nothing makes the AOV '{}'", aov->name),
-                    fmt::format("add a section [{}]", aov == &aov::edges ? "edges" : "ao"));
+            if (aov && !isMade(*aov))
+                fail(entry, fmt::format("nothing makes the AOV '{}'", aov->name), makerRemedy(*aov));
         }
         if (node.array().empty()) fail(node, "'aovs' in [output] is empty", "name at least \"beauty\"");
     }
 
-    bool available(const Aov& aov) const {
-        if (&aov == &aov::ambientOcclusion || &aov == &aov::ambientOcclusionRaw || &aov == &aov::ambientOcclusionError)
-            return config_.ao.has_value();
-        if (&aov == &aov::depthTangent)
-            return config_.ao.has_value() || !config_.edges.empty();  // whether they make it, their plan tells
-        if (&aov == &aov::edges) return !config_.edges.empty();
-        return true;
+    /// The slots that make an AOV: those that promise it, or that its only technique stands in.
+    static std::vector<const Slot*> makers(const Aov& aov) {
+        std::vector<const Slot*> slots;
+        for (const auto& slot : allSlots()) {
+            const bool promises = std::find(slot.promises.begin(), slot.promises.end(), &aov) != slot.promises.end();
+            if (promises || findTechnique(slot.name, aov.onlyBy)) slots.push_back(&slot);
+        }
+        return slots;
+    }
+
+    /// Is a slot filled that makes the AOV? Whether its technique really does, the frame's plan tells.
+    bool isMade(const Aov& aov) const {
+        const auto slots = makers(aov);
+        return slots.empty() || std::any_of(slots.begin(), slots.end(), [&](const Slot* slot) {
+            return !config_.in(slot->name).empty();
+        });
+    }
+
+    static std::string makerRemedy(const Aov& aov) {
+        const Slot& slot = *makers(aov).front();
+        const std::string section =
+            slot.fill == Slot::Fill::layers ? fmt::format("[[{}]]", slot.key) : fmt::format("[{}]", slot.key);
+        if (aov.onlyBy.empty()) return fmt::format("add a section {}", section);
+        return fmt::format("add a section {} with technique = \"{}\"", section, aov.onlyBy);
     }
 
     Node document_;
@@ -324,15 +328,23 @@ color = "#2a2320"
 )";
 }
 
+const std::vector<TechniqueChoice>& RenderConfig::in(std::string_view slot) const {
+    static const std::vector<TechniqueChoice> none;
+    const auto found = choices.find(slot);
+    return found == choices.end() ? none : found->second;
+}
+
+FrameRequest frameRequest(const RenderConfig& config, double frame) {
+    return {
+        config.file.string(), config.camera, frame, config.image.size, config.image.dpi, config.sections, config.scale};
+}
+
 RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides) {
     return ConfigReader(std::move(document), path, overrides).read();
 }
 
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".obj") return parseRenderConfig(readDocument(path), path, overrides);
+    if (!isMeshFile(path)) return parseRenderConfig(readDocument(path), path, overrides);
     if (!fileExists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
     Node document = parseDocument(quickstartStyle(), "the quickstart's style");
     std::get<Node::Table>(document.value).emplace_back("scene", Node{{path.string()}, path.filename().string(), {}});

@@ -5,14 +5,12 @@
 #include "image/image.h"
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace limn {
-
-enum class Accuracy { exact, fast };
-template <>
-inline constexpr std::array<std::string_view, 2> enumNames<Accuracy> = {"exact", "fast"};
 
 struct ImageSettings {
     glm::ivec2 size{1280, 720};
@@ -38,17 +36,17 @@ struct RenderConfig {
     std::filesystem::path scene;   ///< scene file, or an OBJ
     std::string camera;            ///< empty: the scene's first
     std::optional<int> subdivide;  ///< level for an OBJ that is the scene itself
-    Accuracy accuracy = Accuracy::exact;
     ImageSettings image;
-    TechniqueChoice geometry, shading, composite;
-    std::optional<TechniqueChoice> ao;
-    std::vector<TechniqueChoice> aoFilters;  ///< applied in order
-    std::vector<TechniqueChoice> edges;      ///< layers, drawn in order
-    std::vector<std::string> sections;       ///< names of the scene's sections to cut by
-    double scale = 0;                        ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
-    std::optional<FrameRange> frames;        ///< narrows the scene's
+    /// What fills each slot, by the slot's name; nothing where no technique does.
+    std::map<std::string, std::vector<TechniqueChoice>, std::less<>> choices;
+    std::vector<std::string> sections;  ///< names of the scene's sections to cut by
+    double scale = 0;                   ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
+    std::optional<FrameRange> frames;   ///< narrows the scene's
     OutputSettings output;
     std::string hash;  ///< of everything in the config, includes and settings applied
+
+    /// The techniques in a slot, in their order.
+    const std::vector<TechniqueChoice>& in(std::string_view slot) const;
 };
 
 struct ConfigSection {
@@ -68,6 +66,9 @@ struct ConfigOverrides {
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides = {});
 RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides = {});
+
+/// What the config wants of its scene at a frame.
+FrameRequest frameRequest(const RenderConfig& config, double frame);
 
 /// The style in which a bare OBJ is drawn, as TOML.
 std::string_view quickstartStyle();

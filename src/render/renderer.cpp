@@ -1,8 +1,8 @@
 #include "render/renderer.h"
 
 #include "base/install.h"
-#include "base/text.h"
-#include "frame/directions.h"
+#include "picture/directions.h"
+#include "stage/shadow_layout.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -39,11 +39,11 @@ std::vector<float> decodeDirections(const std::vector<float>& encoded) {
     return decoded;
 }
 
-/// Reads a rectangle of an image back, turned so that rows run from the top.
-Image readBack(const gl::Texture& texture, const Aov& aov, const PixelRect& rect) {
+/// Reads a rectangle of an image back, turned so that rows run from the top; of a sum of samples their mean.
+Image readBack(const gl::Texture& texture, const Aov& aov, int summed, const PixelRect& rect) {
     const int channels = aov.channelCount();
     Image image{rect.size.x, rect.size.y, channels, {}};
-    if (aov.isDirection) {
+    if (aov.kind == AovKind::direction) {
         image.pixels = decodeDirections(texture.read(2, rect.origin, rect.size));
     } else if (aov.isInteger()) {
         const auto integers = texture.readIntegers(channels, rect.origin, rect.size);
@@ -54,6 +54,11 @@ Image readBack(const gl::Texture& texture, const Aov& aov, const PixelRect& rect
     const auto row = static_cast<std::ptrdiff_t>(image.width) * channels;
     tbb::parallel_for(0, image.height / 2,
         [&](int y) { std::swap_ranges(image.at(0, y), image.at(0, y) + row, image.at(0, image.height - 1 - y)); });
+    if (summed == 1) return image;
+    const float count = static_cast<float>(summed);
+    tbb::parallel_for(0, image.height, [&](int y) {
+        for (float* p = image.at(0, y); p != image.at(0, y) + row; ++p) *p /= count;
+    });
     return image;
 }
 
@@ -61,7 +66,7 @@ Image readBack(const gl::Texture& texture, const Aov& aov, const PixelRect& rect
 /// before that.
 std::uint64_t finish(Image& image, const Aov& aov, double unit) {
     std::atomic<std::uint64_t> bad = 0;
-    const bool isDepth = &aov == &aov::depth;
+    const bool isDepth = aov.kind == AovKind::depth;
     tbb::parallel_for(0, image.height, [&](int y) {
         std::uint64_t badHere = 0;
         float* p = image.at(0, y);
@@ -102,99 +107,217 @@ std::string cpuFeatures() {
     return text.empty() ? "baseline" : text;
 }
 
+MeshNeeds meshNeeds(SceneData needs) {
+    return {has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices),
+        has(needs, SceneData::colors)};
+}
+
+/// Copies the part of a tile's image that lies in a band: columns from `left` to `right` of the picture.
+void putIntoBand(
+    Image& band, const Image& image, const PixelRect& tile, const PixelRect& bandRect, int left, int right) {
+    if (band.width == 0) {
+        band = {bandRect.size.x, bandRect.size.y, image.channels, {}};
+        band.pixels.resize(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height)
+            * static_cast<std::size_t>(band.channels));
+    }
+    const int skipped = tile.origin.y + tile.size.y - bandRect.origin.y - bandRect.size.y;  // rows of the tile above it
+    for (int y = 0; y < bandRect.size.y && left < right; ++y) {
+        const float* from = image.at(left - tile.origin.x, skipped + y);
+        std::copy(from, from + static_cast<std::ptrdiff_t>(right - left) * image.channels,
+            band.at(left - bandRect.origin.x, y));
+    }
+}
+
+/// Hands a band on, or adds it to what the frame holds.
+void takeBand(std::vector<Image>&& band, const RenderOptions& options, RenderedFrame& result) {
+    if (!options.onBand) {
+        for (std::size_t i = 0; i < band.size(); ++i) {
+            Image& image = result.layers[i].image;
+            if (image.width == 0) {
+                image = std::move(band[i]);
+                continue;
+            }
+            image.pixels.insert(image.pixels.end(), band[i].pixels.begin(), band[i].pixels.end());
+            image.height += band[i].height;
+        }
+        return;
+    }
+    // A few rows at a time: what is made of them on their way into files is then small.
+    constexpr int kRows = 128;
+    for (int top = 0; top < band.front().height; top += kRows) {
+        for (std::size_t i = 0; i < band.size(); ++i)
+            result.layers[i].image = crop(band[i], {{0, top}, {band[i].width, std::min(kRows, band[i].height - top)}});
+        options.onBand(result);
+    }
+    for (auto& layer : result.layers) layer.image = {};
+}
+
+Metadata metadataOf(const RenderConfig& config, const SceneAt& scene, int frame, const gl::DeviceReport& device,
+    const Pipeline& pipeline) {
+    return {{"Software", fmt::format("limn {}", kVersion)}, {"limn.config", config.hash},
+        {"limn.scene", scene.key.hex()}, {"limn.frame", std::to_string(frame)},
+        {"limn.accuracy", std::string(config.in("geometry").front().technique->name)},
+        {"limn.device", fmt::format("{} | {}", device.renderer, device.version)}, {"limn.cpu", cpuFeatures()},
+        {"limn.plan", passNames(pipeline)}};
+}
+
+Layer emptyLayer(const Aov& aov) {
+    Layer layer{std::string(aov.name), {}, aov.isColour(), aov.isInteger(), {}};
+    for (int c = 0; c < aov.channelCount(); ++c) layer.channels.emplace_back(aov.channels[static_cast<std::size_t>(c)]);
+    return layer;
+}
+
 }  // namespace
 
 Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder)
-    : device_(device), shaders_(shaderFolder), executor_(device_, shaders_) {}
+    : device_(device),
+      shaders_(shaderFolder),
+      executor_(device_, shaders_),
+      gpuScene_(device_.limits(), device_.report().isSoftware) {}
 
-/// Compiles the programs of all samples; they differ by what is found anew in them.
-void Renderer::prepare(const FramePlan& frame, View view) {
-    std::set<std::pair<bool, bool>> kinds;
-    for (view.sample = 0; view.sample < view.split.samples(); ++view.sample)
-        if (kinds.emplace(view.findsOcclusion(), view.findsLines()).second)
-            executor_.prepare(frame.graph, frame.ofSample(view), view);
+int Renderer::largestTexture() const { return std::min(device_.limits().maxTextureSize, device_.limits().maxViewport); }
+
+void Renderer::prepare(const Pipeline& pipeline, View view) {
+    // Samples differ by which passes run in them.
+    std::set<std::vector<bool>> kinds;
+    for (view.sample = 0; view.sample < view.sampling.samples(); ++view.sample) {
+        std::vector<bool> runs;
+        for (const auto& planned : pipeline.plan.passes)
+            runs.push_back(view.runs(pipeline.graph.passes[static_cast<std::size_t>(planned.pass)].rate));
+        if (kinds.insert(runs).second) executor_.prepare(pipeline.graph, pipeline.ofSample(view), view);
+    }
 }
 
-void Renderer::bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene,
-    const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times) {
-    SceneKey key = sceneKey(config, loaded, scene, plans.sceneData());
-    const auto& materials = loaded.scene.materials;
-    const bool changes =
-        std::any_of(materials.begin(), materials.end(), [](const auto& material) { return material.moves(); });
-    if (gpuScene_ && key == key_ && !changes) return;
+ContentKey Renderer::shownAs(const ContentKey& order) const {
+    const auto known = shownAs_.find(order);
+    return known == shownAs_.end() ? order : known->second;
+}
+
+MadeMeshes Renderer::makeMissing(
+    const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times) {
+    const bool traces = has(pipelines.sceneData(), SceneData::rays);
+    const auto isMissing = [&](const MeshOrder& order) {
+        const ContentKey key = shownAs(order.key);
+        return !gpuScene_.holds(key) || (traces && !rayMeshes_.contains(key));
+    };
+    const auto make = [&](const auto& isWanted) {
+        return makeMeshes(frame.loaded, frame.scene, frame.request, orders, isWanted);
+    };
+    if (std::none_of(orders.orders.begin(), orders.orders.end(), isMissing)) return {};
     Stopwatch watch(times);
     // Triangles are made while the programs load.
-    auto coming = awaited_.valid()
-        ? std::move(awaited_)
-        : std::async(std::launch::async, [&] { return buildMeshes(config, loaded, scene, key); });
-    prepare(plans.averaged, plans.averagedView);
+    auto coming =
+        awaited_.valid() ? std::move(awaited_) : std::async(std::launch::async, [&] { return make(isMissing); });
+    prepare(pipelines.averaged, pipelines.averagedView);
     watch.lap("of which programs");
-    SceneMeshes made = coming.get();
-    if (made.key != key) made = buildMeshes(config, loaded, scene, key);
-    watch.lap("of which triangles, beyond the programs");
-    for (const auto& mesh : made.meshes)
-        if (facts.triangleBits > 0 && mesh.triangleCount() > std::size_t{1} << facts.triangleBits)
-            throw Error(ExitCode::internal, {loaded.scene.file}, "a mesh became more triangles than were planned for",
-                "please report this");
-    times.push_back({"triangles, begun beside what is above", made.milliseconds});
-    gpuScene_ = nullptr;  // gives the old one's memory back first
-    gpuScene_ = std::make_unique<GpuScene>(
-        scene, made.meshes, made.meshOf, key.needs, device_.limits(), device_.report().isSoftware);
-    watch.lap("of which upload");
-    rayScene_ = nullptr;
-    if (has(key.needs, SceneData::rays)) {
-        rayScene_ = std::make_unique<RayScene>(scene, made.meshes, made.meshOf);
-        watch.lap("of which ray tracing tree");
+    MadeMeshes made = coming.get();
+    const auto isStillMissing = [&](const MeshOrder& order) {
+        return isMissing(order) && !made.meshes.contains(order.key) && !made.shownAs.contains(order.key);
+    };
+    if (std::any_of(orders.orders.begin(), orders.orders.end(), isStillMissing)) {
+        MadeMeshes more = make(isStillMissing);
+        made.meshes.merge(more.meshes);
+        made.shownAs.merge(more.shownAs);
     }
-    key_ = std::move(key);
+    watch.lap("of which triangles, beyond the programs");
+    for (const auto& [key, mesh] : made.meshes)
+        if (frame.facts.triangleBits > 0 && mesh.triangleCount() > std::size_t{1} << frame.facts.triangleBits)
+            throw Error(ExitCode::internal, {frame.loaded.scene.file},
+                "a mesh became more triangles than were planned for", "please report this");
+    times.push_back({"triangles, begun beside what is above", made.milliseconds});
+    return made;
 }
 
-/// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that is
-/// to be kept).
-std::vector<Image> Renderer::drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect,
-    const RenderOptions& options, RenderedFrame& result) {
-    const RenderConfig& config = *frame.config;
-    const Tile tile{block, rect};
-    const FramePlans plans =
-        planBoth(config, *frame.scene, *frame.facts, frame.number, frame.largest, options.guard, tile);
-    GpuScene& gpu = *gpuScene_;
-    prepare(plans.averaged, plans.averagedView);
+void Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made) {
+    rayMeshes_.merge(made);
+    const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
+    std::erase_if(rayMeshes_, [&](const auto& entry) { return !wanted.contains(entry.first); });
+    KeyBuilder key;
+    std::vector<const TriMesh*> meshes;
+    for (std::size_t i = 0; i < meshOf.size(); ++i) {
+        const DrawInstance& instance = frame.scene.instances[i];
+        meshes.push_back(&rayMeshes_.at(meshOf[i]));
+        key.add(meshOf[i].low).add(meshOf[i].high).bytes(&instance.worldFromMesh, sizeof instance.worldFromMesh);
+        for (const auto material : instance.materials) {  // whose images may cut holes
+            const ContentKey& texture = frame.scene.textureKeys[material];
+            key.add(texture.low).add(texture.high);
+        }
+    }
+    if (rayScene_ && key.key() == rayKey_) return;
+    rayScene_ = nullptr;
+    rayScene_ = std::make_unique<RayScene>(frame.scene, meshes);
+    rayKey_ = key.key();
+}
 
+void Renderer::bringScene(const Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times) {
+    const SceneData needs = pipelines.sceneData();
+    gpuScene_.require(needs, frame.scene.lineRecords.size());
+    if (!has(needs, SceneData::rays)) rayMeshes_.clear();
+    const MeshOrders orders = orderMeshes(frame.loaded, frame.scene, frame.request, meshNeeds(needs));
+    MadeMeshes made = makeMissing(frame, pipelines, orders, times);
+    shownAs_.merge(made.shownAs);
+    std::vector<ContentKey> meshOf;
+    for (const std::size_t order : orders.orderOf) meshOf.push_back(shownAs(orders.orders[order].key));
+    Stopwatch watch(times);
+    gpuScene_.update(frame.scene, meshOf, made.meshes);
+    watch.lap("of which upload");
+    if (!has(needs, SceneData::rays)) {
+        rayScene_ = nullptr;
+        return;
+    }
+    bringRays(frame, meshOf, made.meshes);
+    watch.lap("of which ray tracing tree");
+}
+
+void Renderer::drawSamples(
+    const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options) {
+    const Pipeline& pipeline = pipelines.averaged;
     executor_.resetMeasurements();
-    for (int sample = 0; sample < plans.split.samples(); ++sample) {
-        ViewRequest request = viewRequest(config, plans.split, frame.number, plans.guard, options.guard, tile);
+    for (int sample = 0; sample < pipelines.sampling.samples(); ++sample) {
+        ViewRequest request =
+            viewRequest(frame.config, pipelines.sampling, frame.number, pipelines.guard, options.guard, tile);
         request.sample = sample;
-        const View view = makeView(frame.scene->camera, frame.scene->info, request);
-        gpu.setView(*frame.scene, view);
-        const FramePlan one = planFrame(config, *frame.facts, view, plans.averaged.aovs, frame.number);
-        executor_.run(one.graph, one.ofSample(view), view, gpu, rayScene_.get(), options.measure);
+        const View view = makeView(frame.scene.camera, frame.scene.info, request);
+        gpuScene_.setView(frame.scene, view);
+        executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
     }
     gl::finish();
     passTimes_.clear();
     for (std::size_t i = 0; i < executor_.milliseconds().size(); ++i) {
-        const Pass& pass = plans.averaged.graph.passes[static_cast<std::size_t>(plans.averaged.plan.passes[i].pass)];
+        const Pass& pass = pipeline.graph.passes[static_cast<std::size_t>(pipeline.plan.passes[i].pass)];
         passTimes_.push_back({pass.name, pass.slot, executor_.milliseconds()[i]});
     }
-    result.view = plans.averagedView;
+}
+
+std::vector<Image> Renderer::drawTile(
+    const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result) {
+    const RenderConfig& config = frame.config;
+    const TilePipelines pipelines =
+        buildPipelines(config, frame.scene, frame.facts, frame.number, largestTexture(), options.guard, tile);
+    prepare(pipelines.averaged, pipelines.averagedView);
+    drawSamples(frame, tile, pipelines, options);
+    result.view = pipelines.averagedView;
 
     std::map<const Aov*, Image> images;
-    const auto collect = [&](const FramePlan& plan) {
-        for (std::size_t i = 0; i < plan.aovs.size(); ++i) {
-            const auto& texture = executor_.texture(plan.plan, plan.wanted[i].resource);
-            const bool isWider =
-                texture.size().x != rect.size.x && options.guard == 0;  // by a guard band that nobody wants
-            Image image = readBack(texture, *plan.aovs[i],
-                isWider ? PixelRect{glm::ivec2(plans.guard), rect.size} : PixelRect{glm::ivec2(0), texture.size()});
-            result.nonFinite += finish(image, *plan.aovs[i], plans.averagedView.unit);
-            images[plan.aovs[i]] = std::move(image);
+    const auto collect = [&](const Pipeline& pipeline) {
+        for (std::size_t i = 0; i < pipeline.aovs.size(); ++i) {
+            const auto& texture = executor_.texture(pipeline.plan, pipeline.wanted[i].resource);
+            // By a guard band that nobody wants.
+            const bool isWider = texture.size().x != tile.rect.size.x && options.guard == 0;
+            const PixelRect rect = isWider ? PixelRect{glm::ivec2(pipelines.guard), tile.rect.size}
+                                           : PixelRect{glm::ivec2(0), texture.size()};
+            Image image = readBack(texture, *pipeline.aovs[i], pipeline.summed[i], rect);
+            result.nonFinite += finish(image, *pipeline.aovs[i], pipelines.averagedView.unit);
+            images[pipeline.aovs[i]] = std::move(image);
         }
     };
-    collect(plans.averaged);
-    if (plans.centre) {
+    collect(pipelines.averaged);
+    if (pipelines.centre) {
         executor_.resetMeasurements();
-        gpu.setView(*frame.scene, plans.centreView);
-        executor_.run(plans.centre->graph, plans.centre->plan, plans.centreView, gpu, rayScene_.get(), false);
-        collect(*plans.centre);
+        gpuScene_.setView(frame.scene, pipelines.centreView);
+        executor_.run(
+            pipelines.centre->graph, pipelines.centre->plan, pipelines.centreView, gpuScene_, rayScene_.get(), false);
+        collect(*pipelines.centre);
     }
     std::vector<Image> ordered;
     for (const Aov* aov : config.output.aovs) ordered.push_back(std::move(images[aov]));
@@ -205,112 +328,74 @@ RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
     Stopwatch watch(result.times);
-    const DrawScene scene = resolveFrame(loaded, frameRequest(config, number));
-    const SceneFacts facts = sceneFacts(scene);
-    const int largest = std::min(device_.limits().maxTextureSize, device_.limits().maxViewport);
-    const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
-    const FramePlans plans = planBoth(config, scene, facts, number, largest, options.guard, {firstBlock, firstBlock});
-    if (const auto layout = shadowLayout(scene.lights); std::max(layout.size.x, layout.size.y) > largest)
+    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number};
+    frame.scene = sceneAt(loaded, frame.request);
+    frame.facts = sceneFacts(frame.scene);
+    const glm::ivec2 size = config.image.size;
+    const PixelRect firstBlock{glm::ivec2(0), largestBlock(size)};
+    const TilePipelines pipelines = buildPipelines(
+        config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
+    const ShadowLayout shadows = shadowLayout(frame.scene.lights);
+    if (std::max(shadows.size.x, shadows.size.y) > largestTexture())
         throw Error(ExitCode::usage, {loaded.scene.file},
-            fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", layout.size.x,
-                layout.size.y, largest),
+            fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", shadows.size.x,
+                shadows.size.y, largestTexture()),
             "lower shadow.resolution");
     watch.lap("plan");
-    bringScene(config, loaded, scene, facts, plans, result.times);
+    bringScene(frame, pipelines, result.times);
     watch.lap("scene to the GPU");
 
     result.opaque = !config.image.transparent;
-    const auto& device = device_.report();
-    result.metadata = {{"Software", fmt::format("limn {}", kVersion)}, {"limn.config", config.hash},
-        {"limn.scene", loaded.hash}, {"limn.frame", std::to_string(number)},
-        {"limn.accuracy", std::string(enumNames<Accuracy>[static_cast<std::size_t>(config.accuracy)])},
-        {"limn.device", fmt::format("{} | {}", device.renderer, device.version)}, {"limn.cpu", cpuFeatures()},
-        {"limn.plan", planSummary(plans.averaged)}};
-    for (const Aov* aov : config.output.aovs) {
-        Layer layer{std::string(aov->name), {}, aov->isColour, aov->isInteger(), {}};
-        for (int c = 0; c < aov->channelCount(); ++c)
-            layer.channels.emplace_back(aov->channels[static_cast<std::size_t>(c)]);
-        result.layers.push_back(std::move(layer));
-    }
+    result.metadata = metadataOf(config, frame.scene, number, device_.report(), pipelines.averaged);
+    for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
 
     // What is wanted, in pixels from the lower left; tiles begin at multiples of four.
-    const glm::ivec2 size = config.image.size;
-    const PixelRect wanted = options.crop.size.x > 0
-        ? PixelRect{{options.crop.origin.x, size.y - options.crop.origin.y - options.crop.size.y}, options.crop.size}
+    const PixelRect& crop = options.crop;
+    const PixelRect wanted = crop.size.x > 0
+        ? PixelRect{{crop.origin.x, size.y - crop.origin.y - crop.size.y}, crop.size}
         : PixelRect{glm::ivec2(0), size};
-    const int tileSize = chooseTileSize(config, plans, firstBlock.size);
-    const auto cut = [&](int axis, int most) {
-        std::vector<std::array<int, 4>> parts;  // of a block and of a tile in it: where they begin and end
-        for (const auto& [blockFrom, blockTo] : spans(size[axis], largestBlockSide(size)))
-            for (const auto& [from, to] : spans(blockTo - blockFrom, most)) {
-                const int low = std::max(blockFrom + from, wanted.origin[axis] / 4 * 4),
-                          high = std::min(blockFrom + to,
-                              std::min(size[axis], (wanted.origin[axis] + wanted.size[axis] + 3) / 4 * 4));
-                if (low < high) parts.push_back({blockFrom, blockTo, low, high});
-            }
-        return parts;
-    };
-    // Passes that look everywhere need their whole block, whatever is wanted of it.
-    const bool wholeBlocks = tileSize >= std::max(firstBlock.size.x, firstBlock.size.y)
-        && (config.accuracy != Accuracy::exact || looksEverywhere(plans.averaged)
-            || (plans.centre && looksEverywhere(*plans.centre)));
-    const auto columns = cut(0, tileSize), rows = cut(1, tileSize);
-    const Frame frame{&config, &scene, &facts, number, largest};
+    const int tileSize = chooseTileSize(config, pipelines, firstBlock.size);
+    // What cannot be cut needs its whole block, whatever is wanted of it.
+    const bool wholeBlocks = !takesAnyTile(pipelines);
+    const auto columns = tileSpans(size, 0, tileSize, wanted), rows = tileSpans(size, 1, tileSize, wanted);
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
         // A band: the part of these tiles that is wanted, rows from the top.
-        const int low = std::max((*row)[2], wanted.origin.y),
-                  high = std::min((*row)[3], wanted.origin.y + wanted.size.y);
+        const int low = std::max(row->from, wanted.origin.y), high = std::min(row->to, wanted.origin.y + wanted.size.y);
         if (low >= high) continue;
+        const PixelRect bandRect{{wanted.origin.x, low}, {wanted.size.x, high - low}};
         std::vector<Image> band(config.output.aovs.size());
         for (const auto& column : columns) {
-            const PixelRect block{{column[0], (*row)[0]}, {column[1] - column[0], (*row)[1] - (*row)[0]}};
-            const PixelRect tile =
-                wholeBlocks ? block : PixelRect{{column[2], (*row)[2]}, {column[3] - column[2], (*row)[3] - (*row)[2]}};
-            auto images = drawTile(frame, block, tile, options, result);
-            const bool isAll = columns.size() == 1 && low == tile.origin.y && high == tile.origin.y + tile.size.y
-                && wanted.origin.x == tile.origin.x && wanted.size.x == tile.size.x;
-            const int left = std::max(column[2], wanted.origin.x),
-                      right = std::min(column[3], wanted.origin.x + wanted.size.x);
-            for (std::size_t i = 0; i < images.size(); ++i) {
-                if (isAll) {  // with the guard band, if that was asked for
+            const PixelRect block{
+                {column.blockFrom, row->blockFrom}, {column.blockTo - column.blockFrom, row->blockTo - row->blockFrom}};
+            const PixelRect rect = wholeBlocks
+                ? block
+                : PixelRect{{column.from, row->from}, {column.to - column.from, row->to - row->from}};
+            auto images = drawTile(frame, {block, rect}, options, result);
+            // With the guard band, if that was asked for.
+            const bool isAll = columns.size() == 1 && bandRect.origin == rect.origin && bandRect.size == rect.size;
+            const int left = std::max(column.from, wanted.origin.x),
+                      right = std::min(column.to, wanted.origin.x + wanted.size.x);
+            for (std::size_t i = 0; i < images.size(); ++i)
+                if (isAll)
                     band[i] = std::move(images[i]);
-                    continue;
-                }
-                if (band[i].width == 0)
-                    band[i] = {wanted.size.x, high - low, images[i].channels,
-                        std::vector<float>(static_cast<std::size_t>(wanted.size.x)
-                            * static_cast<std::size_t>(high - low) * static_cast<std::size_t>(images[i].channels))};
-                for (int y = 0; y < high - low && left < right; ++y) {
-                    const float* from = images[i].at(left - tile.origin.x, tile.origin.y + tile.size.y - high + y);
-                    std::copy(from, from + static_cast<std::ptrdiff_t>(right - left) * images[i].channels,
-                        band[i].at(left - wanted.origin.x, y));
-                }
-            }
+                else
+                    putIntoBand(band[i], images[i], rect, bandRect, left, right);
         }
-        if (options.onBand) {
-            // A few rows at a time: what is made of them on their way into files is then small.
-            constexpr int kRows = 128;
-            for (int top = 0; top < band.front().height; top += kRows) {
-                for (std::size_t i = 0; i < band.size(); ++i)
-                    result.layers[i].image =
-                        crop(band[i], {{0, top}, {band[i].width, std::min(kRows, band[i].height - top)}});
-                options.onBand(result);
-            }
-            for (auto& layer : result.layers) layer.image = {};
-            continue;
-        }
-        for (std::size_t i = 0; i < band.size(); ++i) {
-            Image& image = result.layers[i].image;
-            if (image.width == 0)
-                image = std::move(band[i]);
-            else {
-                image.pixels.insert(image.pixels.end(), band[i].pixels.begin(), band[i].pixels.end());
-                image.height += band[i].height;
-            }
-        }
+        takeBand(std::move(band), options, result);
     }
     watch.lap("draw");
     return result;
+}
+
+MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame) {
+    const FrameRequest request = frameRequest(config, frame);
+    const SceneAt scene = sceneAt(loaded, request);
+    const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
+    constexpr int kAnySize = 16384;
+    const TilePipelines pipelines =
+        buildPipelines(config, scene, sceneFacts(scene), frame, kAnySize, 0, {block, block});
+    const MeshOrders orders = orderMeshes(loaded, scene, request, meshNeeds(pipelines.sceneData()));
+    return makeMeshes(loaded, scene, request, orders, [](const MeshOrder&) { return true; });
 }
 
 }  // namespace limn

@@ -1,15 +1,18 @@
 // Draws configs into pictures: loads, plans, draws every sample, reads back, and writes.
 #pragma once
 
-#include "frame/executor.h"
-#include "reference/ray_scene.h"
-#include "render/frame_plans.h"
-#include "render/loader.h"
-#include "render/scene_meshes.h"
+#include "gpu/executor.h"
+#include "image/image.h"
+#include "rays/ray_scene.h"
+#include "render/pipeline.h"
+#include "stage/meshes.h"
 
+#include <filesystem>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
+#include <vector>
 
 namespace limn {
 
@@ -46,49 +49,67 @@ struct PassTime {
     double milliseconds;
 };
 
-/// The device, the programs and the scenes on it, kept from frame to frame.
+/// The device, the programs and the scenes on it, kept from frame to frame: what is the same in the next frame is
+/// neither made nor brought again.
 class Renderer {
 public:
     explicit Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder = {});
 
-    /// Meshes of the next frame that are under way: it takes them instead of making its own, if they are what it needs.
-    void await(std::future<SceneMeshes> meshes) { awaited_ = std::move(meshes); }
+    /// Meshes of the next frame that are under way: it takes from them what it needs.
+    void await(std::future<MadeMeshes> meshes) { awaited_ = std::move(meshes); }
 
     RenderedFrame render(
         const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
 
-    /// With RenderOptions::measure: of each pass of the last frame's averaged plan, in its order.
+    /// With RenderOptions::measure: of each pass of the last frame's averaged pipeline, in its order.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
     /// How much of that was reading images back for passes on the CPU, and sending their results on.
     double transferMilliseconds() const { return executor_.transferMilliseconds(); }
     const gl::Device& device() const { return device_; }
+    /// The longest side of an image that the device takes.
+    int largestTexture() const;
 
 private:
-    /// Compiles the programs of all samples of a frame.
-    void prepare(const FramePlan& frame, View view);
-    /// Sees to it that the scene is on the GPU: it stays there while frames differ only in what setView brings
-    /// (cameras, transforms, lights).
-    void bringScene(const RenderConfig& config, const LoadedScene& loaded, const DrawScene& scene,
-        const SceneFacts& facts, const FramePlans& plans, std::vector<PartTime>& times);
-
     /// What all tiles of a frame share.
     struct Frame {
-        const RenderConfig* config;
-        const DrawScene* scene;
-        const SceneFacts* facts;
-        int number, largest;
+        const RenderConfig& config;
+        const LoadedScene& loaded;
+        FrameRequest request;
+        SceneAt scene;
+        SceneFacts facts;
+        int number;
     };
-    std::vector<Image> drawTile(const Frame& frame, const PixelRect& block, const PixelRect& rect,
-        const RenderOptions& options, RenderedFrame& result);
+
+    /// Compiles the programs of all samples of a frame.
+    void prepare(const Pipeline& pipeline, View view);
+    /// Sees to it that the scene is on the GPU, and its ray tracing tree made where the plan traces rays.
+    void bringScene(const Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times);
+    /// The meshes that are neither on the GPU nor kept for rays.
+    MadeMeshes makeMissing(
+        const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
+    void bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
+    ContentKey shownAs(const ContentKey& order) const;
+
+    /// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that
+    /// is to be kept).
+    std::vector<Image> drawTile(
+        const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
+    void drawSamples(
+        const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);
 
     gl::Device device_;
     ShaderLibrary shaders_;
     Executor executor_;
+    GpuScene gpuScene_;
     std::vector<PassTime> passTimes_;
-    std::unique_ptr<GpuScene> gpuScene_;
-    std::unique_ptr<RayScene> rayScene_;  ///< only where the plan traces rays
-    SceneKey key_;                        ///< of gpuScene_ and rayScene_
-    std::future<SceneMeshes> awaited_;
+    std::map<ContentKey, ContentKey> shownAs_;  ///< MadeMeshes::shownAs of all that was made
+    std::unique_ptr<RayScene> rayScene_;        ///< only where the plan traces rays, as are:
+    std::map<ContentKey, TriMesh> rayMeshes_;   ///< those that it was made of
+    ContentKey rayKey_;                         ///< of all that it was made of
+    std::future<MadeMeshes> awaited_;
 };
+
+/// The meshes that a frame needs, made without a device: while one starts.
+MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame);
 
 }  // namespace limn

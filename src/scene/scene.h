@@ -1,7 +1,7 @@
 // A scene: plain data, as described by a scene file. Doubles, scene units, right-handed.
 #pragma once
 
-#include "base/params.h"
+#include "settings/fields.h"
 
 #include <glm/glm.hpp>
 
@@ -22,15 +22,6 @@ inline constexpr std::array<std::string_view, 3> enumNames<LightKind> = {"sun", 
 
 /// Warm paper grey: what an object without a material is drawn in.
 inline constexpr Color kPaperGrey{0.604f, 0.571f, 0.521f};  // #cbc6be
-
-/// What an object and its material say about its lines; what they leave out is as the line technique says.
-struct LineOverride {
-    bool draws = true;
-    OptionalColor color;
-    double creaseAngle = 0;  ///< degrees; 0 = not said
-    bool isCut = false;      ///< the cut face of a section
-    bool operator==(const LineOverride&) const = default;
-};
 
 /// Parallel lines in the picture.
 struct Hatch {
@@ -184,19 +175,5 @@ struct Scene {
     /// The frame at which relative lengths are resolved.
     int firstFrame() const { return frames ? frames->first : 1; }
 };
-
-/// Tables of the scene file's sections, for the parameter reference.
-struct SceneSection {
-    std::string_view name, doc;
-    Schema schema;
-};
-std::vector<SceneSection> sceneSections();
-
-/// Reads and checks a scene file; every problem at once (Errors). Files it names are not opened, but must exist.
-Scene readScene(const std::filesystem::path& path, std::vector<std::filesystem::path>* files = nullptr);
-Scene parseScene(const Node& document, const std::filesystem::path& path);
-
-/// A scene of one OBJ file, drawn as it is modelled.
-Scene sceneFromObj(const std::filesystem::path& objPath);
 
 }  // namespace limn

@@ -38,11 +38,11 @@ std::unique_ptr<RayScene> buildShell(
                 if (joined(t[0], t[1]) && joined(t[1], t[2]) && joined(t[2], t[0]))
                     for (const auto i : t) mesh.indices.push_back(static_cast<std::uint32_t>(i));
         }
-    DrawScene draw;
-    draw.info = scene;
-    draw.instances.push_back({0, view.worldFromView(), {}, 1});
-    const int meshOf[] = {0};
-    return std::make_unique<RayScene>(draw, std::span(&mesh, 1), meshOf);
+    SceneAt shell;
+    shell.info = scene;
+    shell.instances.push_back({0, view.worldFromView(), {}, 1});
+    const TriMesh* meshOf[] = {&mesh};
+    return std::make_unique<RayScene>(shell, meshOf);
 }
 
 }  // namespace limn

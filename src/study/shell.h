@@ -1,7 +1,7 @@
 // The best that a depth buffer allows: rays against the buffer's own triangles.
 #pragma once
 
-#include "reference/ray_scene.h"
+#include "rays/ray_scene.h"
 
 namespace limn {
 

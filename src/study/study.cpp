@@ -3,9 +3,9 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "config/document.h"
-#include "frame/directions.h"
-#include "reference/ambient_occlusion.h"
+#include "picture/directions.h"
+#include "rays/ambient_occlusion.h"
+#include "settings/document.h"
 #include "study/shell.h"
 
 #include <fmt/format.h>
@@ -42,7 +42,9 @@ public:
     Study read(const std::filesystem::path& path) {
         const Node document = readDocument(path);
         Study study;
+        readVersion(document, "the study", errors_);
         for (const auto& [key, node] : document.table()) {
+            if (key == "version") continue;
             if (key == "image")
                 readFields(node, kSettings, &study.settings, nullptr, "[image]", errors_);
             else if (key == "place")
@@ -102,7 +104,7 @@ private:
         if (const Node* ao = node.find("ao"); ao && ao->isTable()) {
             method.ao = *ao;
             static constexpr std::string_view filter[] = {"filter"};
-            static_cast<void>(readChoice(*ao, "ao", "", "ao of [[method]]", errors_, filter));
+            static_cast<void>(readChoice(*ao, *findSlot("ao"), "ao of [[method]]", errors_, filter));
         } else
             fail(node, "a [[method]] needs 'ao', a table as in a render config", "");
         if (const Node* tune = node.find("tune")) {
@@ -152,8 +154,8 @@ Deviation compare(const std::vector<float>& picture, const std::vector<float>& t
 /// Runs the methods in one place.
 class PlaceRunner {
 public:
-    PlaceRunner(Renderer& renderer, const StudySettings& settings, const StudyPlace& place)
-        : renderer_(renderer), settings_(settings), place_(place), loaded_(loadScene(place.scene)) {}
+    PlaceRunner(Session& session, const StudySettings& settings, const StudyPlace& place)
+        : session_(session), settings_(settings), place_(place) {}
 
     StudyRow score(const StudyMethod& method, const std::vector<std::string>& settings, const std::string& camera) {
         const Shot& known = shot(camera);
@@ -242,13 +244,15 @@ private:
         return parseRenderConfig(std::move(document), "study");
     }
 
+    int first(const RenderConfig& config) { return session_.load(config).scene.firstFrame(); }
+
     const Shot& shot(const std::string& camera) {
         if (const auto it = shots_.find(camera); it != shots_.end()) return it->second;
         log::info("{} {}: the truth, {} rays per pixel", place_.name, camera, settings_.rays);
         Shot shot{camera, {}, {}};
         const Node rays = parseDocument(fmt::format("technique = 'ray_traced'\nrays = {}\n", settings_.rays), "study");
         const RenderConfig truth = config(camera, rays, {}, "'ambient_occlusion', 'depth'");
-        const RenderedFrame frame = renderer_.render(truth, loaded_, loaded_.scene.firstFrame(), {});
+        const RenderedFrame frame = session_.draw(truth, first(truth));
         shot.truth = frame.layers[0].image.pixels;
         const auto& depth = frame.layers[1].image.pixels;
         for (std::size_t i = 0; i < shot.truth.size(); ++i)
@@ -259,13 +263,9 @@ private:
         wide.guard =
             static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
         const RenderConfig surfaces = config(camera, Node{}, {}, "'depth', 'normal_geometric'");
-        const RenderedFrame seen = renderer_.render(surfaces, loaded_, loaded_.scene.firstFrame(), wide);
-        const DrawScene scene = resolveFrame(loaded_,
-            {.camera = camera,
-                .frame = static_cast<double>(loaded_.scene.firstFrame()),
-                .imageSize = settings_.size,
-                .sections = {}});
-        const auto shell = buildShell(seen.view, scene.info, seen.layers[0].image.pixels, seen.layers[1].image.pixels);
+        const RenderedFrame seen = session_.draw(surfaces, first(surfaces), wide);
+        const auto shell = buildShell(
+            seen.view, sceneInfo(session_.load(surfaces)), seen.layers[0].image.pixels, seen.layers[1].image.pixels);
         shot.shell = traceShell(*shell, seen);
         for (std::size_t i = 0; i < shot.shell.size(); ++i)
             if (shot.truth[i] < 0) shot.shell[i] = -1;
@@ -315,16 +315,16 @@ private:
         RenderOptions options;
         options.measure = true;
         for (int run = 0; run < settings_.repeat; ++run) {
-            RenderedFrame frame = renderer_.render(wanted, loaded_, loaded_.scene.firstFrame(), options);
+            RenderedFrame frame = session_.draw(wanted, first(wanted), options);
             for (const auto& part : frame.times)
                 if (part.name == "of which ray tracing tree") tree_ = part.milliseconds;
             double milliseconds = 0;
-            for (const auto& pass : renderer_.passTimes())
+            for (const auto& pass : session_.renderer().passTimes())
                 if (pass.slot == "ao" || pass.slot == "filter") milliseconds += pass.milliseconds;
-            milliseconds -= renderer_.transferMilliseconds();
+            milliseconds -= session_.renderer().transferMilliseconds();
             if (milliseconds < row.milliseconds) {
                 row.milliseconds = milliseconds;
-                row.transferMilliseconds = renderer_.transferMilliseconds();
+                row.transferMilliseconds = session_.renderer().transferMilliseconds();
             }
             picture_ = std::move(frame.layers[0].image.pixels);
         }
@@ -335,10 +335,9 @@ private:
         return row;
     }
 
-    Renderer& renderer_;
+    Session& session_;
     const StudySettings& settings_;
     const StudyPlace& place_;
-    LoadedScene loaded_;
     std::map<std::string, Shot> shots_;
     std::vector<float> picture_;  ///< of the last draw()
     double tree_ = 0;
@@ -348,9 +347,9 @@ private:
 
 Study readStudy(const std::filesystem::path& path) { return StudyReader().read(path); }
 
-void runStudy(Renderer& renderer, const Study& study, const std::function<void(const StudyRow&)>& report) {
+void runStudy(Session& session, const Study& study, const std::function<void(const StudyRow&)>& report) {
     for (const auto& place : study.places) {
-        PlaceRunner runner(renderer, study.settings, place);
+        PlaceRunner runner(session, study.settings, place);
         for (const auto& method : study.methods) {
             const auto settings = runner.tune(method);
             for (const auto& camera : place.score) report(runner.score(method, settings, camera));

@@ -22,7 +22,7 @@
 //     milliseconds = 15           # settings that take longer do not count
 #pragma once
 
-#include "render/renderer.h"
+#include "job/session.h"
 
 #include <filesystem>
 #include <functional>
@@ -81,6 +81,6 @@ struct StudyRow {
 Study readStudy(const std::filesystem::path& path);
 
 /// Runs it; each row is handed over as soon as it is known.
-void runStudy(Renderer& renderer, const Study& study, const std::function<void(const StudyRow&)>& report);
+void runStudy(Session& session, const Study& study, const std::function<void(const StudyRow&)>& report);
 
 }  // namespace limn

@@ -2,9 +2,10 @@
 // they change their shape.
 
 #include "base/file.h"
-#include "config/document.h"
-#include "scene/obj.h"
+#include "formats/obj.h"
+#include "formats/scene_file.h"
 #include "scene/scene.h"
+#include "settings/document.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

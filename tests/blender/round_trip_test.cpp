@@ -1,8 +1,9 @@
 // Through the real Blender and back: what our exporter writes, limn must make into what Blender itself evaluates and
 // draws.
 
-#include "geometry/topology.h"
+#include "formats/obj.h"
 #include "image/codecs.h"
+#include "mesh/topology.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>
@@ -58,12 +59,13 @@ double diagonal(const std::vector<glm::dvec3>& points) {
 TEST_F(RoundTrip, pointsAndUvsAreBlenders) {
     const LoadedScene loaded = loadScene(folder() / "scene.toml");
     int compared = 0;
-    for (std::size_t i = 0; i < loaded.meshes.size(); ++i) {
+    const auto meshes = loaded.meshes->at(1);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
         const auto& source = loaded.scene.meshes[i];
-        const auto options = subdivisionOf(source, loaded.meshes[i].poly);
+        const auto options = subdivisionOf(source, meshes[i]->poly);
         if (!options) continue;
         EXPECT_EQ(options->limit, source.name.ends_with("_limit"));
-        const PolyMesh ours = refineUniformly(loaded.meshes[i].poly, *options, false);
+        const PolyMesh ours = refineUniformly(meshes[i]->poly, *options, false);
         const PolyMesh theirs = readObj(folder() / "truth" / (source.name + ".obj")).mesh;
         // Blender's own patches reach the limit of the sharpest semi-sharp creases (8.1) to 2.3e-5 only, at its highest
         // quality.
@@ -113,12 +115,12 @@ TEST_F(RoundTrip, lineColoursComeAlong) {
 TEST_F(RoundTrip, coloursAndHolesComeAlong) {
     const LoadedScene loaded = loadScene(folder() / "scene.toml");
     int painted = 0, cut = 0;
-    for (const auto& mesh : loaded.meshes) {
-        if (mesh.poly.colors.empty()) continue;
+    for (const auto& mesh : loaded.meshes->at(1)) {
+        if (mesh->poly.colors.empty()) continue;
         ++painted;
         const glm::vec3 expected[] = {{1, 0, 0}, {0, 0.5f, 0}, {0, 0, 0.25f}, {1, 1, 1}};
-        ASSERT_EQ(mesh.poly.colors.size(), 4u);
-        for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(glm::distance(mesh.poly.colors[i], expected[i]), 1e-5f) << i;
+        ASSERT_EQ(mesh->poly.colors.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_LT(glm::distance(mesh->poly.colors[i], expected[i]), 1e-5f) << i;
     }
     for (const auto& material : loaded.scene.materials) {
         EXPECT_EQ(material.base.vertexColors, material.base.name == "paint") << material.base.name;

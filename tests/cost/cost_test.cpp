@@ -1,5 +1,6 @@
 // What nothing asks for costs nothing: counted at the GL entry points, not from our own bookkeeping.
 
+#include "render/report.h"
 #include "support/bench.h"
 
 #include <epoxy/gl.h>
@@ -187,9 +188,9 @@ TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {
         kScene + "[[material]]\nname = 'shiny'\nshininess = 20\n[[instance]]\nmesh = 'm'\nmaterial = 'shiny'\n",
         {{"m.obj", mixedObj()}});
     const auto readsMaterials = [](const LoadedScene& scene, const std::string& config) {
-        const ExplainedPlan plan = planConfig(makeConfig(kBase + config), scene, 1);
-        for (const auto& planned : plan.frame.plan.passes)
-            for (const auto& read : plan.frame.graph.passes[static_cast<std::size_t>(planned.pass)].reads)
+        const PlanReport plan = reportPlan(makeConfig(kBase + config), scene, 1);
+        for (const auto& planned : plan.pipeline.plan.passes)
+            for (const auto& read : plan.pipeline.graph.passes[static_cast<std::size_t>(planned.pass)].reads)
                 if (read.name == "materialId") return true;
         return false;
     };
@@ -203,8 +204,8 @@ TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {
 
 TEST(Cost, planOfTheBarePictureNamesNoEffect) {
     const LoadedScene loaded = makeScene(kScene, {{"m.obj", mixedObj()}});
-    const ExplainedPlan plan = planConfig(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n"), loaded, 1);
-    for (const auto& pass : plan.frame.graph.passes)
+    const PlanReport plan = reportPlan(makeConfig(kBase + "[shading]\ntechnique = 'toon'\n"), loaded, 1);
+    for (const auto& pass : plan.pipeline.graph.passes)
         EXPECT_TRUE(pass.slot != "ao" && pass.slot != "filter" && pass.slot != "edges" && pass.slot != "shadow")
             << pass.name;
 }

@@ -1,6 +1,6 @@
 // Mesh files that others made to be hard: what each must come to, as tests/errors/hard_meshes.tsv says.
 
-#include "render/inspect.h"
+#include "formats/inspect.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

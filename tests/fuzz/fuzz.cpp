@@ -4,13 +4,13 @@
 // Built and run by tests/fuzz/run.sh with clang, AddressSanitizer and UndefinedBehaviorSanitizer. Errors are answers;
 // crashes are not.
 
-#include "config/document.h"
-#include "geometry/far.h"
-#include "geometry/subdivide.h"
-#include "geometry/topology.h"
+#include "formats/obj.h"
+#include "mesh/far.h"
+#include "mesh/subdivide.h"
+#include "mesh/topology.h"
 #include "render/config.h"
-#include "scene/obj.h"
 #include "scene/scene.h"
+#include "settings/document.h"
 
 #include <algorithm>
 #include <cstddef>

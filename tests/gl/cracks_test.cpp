@@ -62,19 +62,24 @@ TEST(EdgeLength, instancesOfOneSizeShareAMesh) {
         "'m'\ntranslate = [2, 0, 0]\n[[camera]]\nposition = [0, 0, 20]\nlook_at = [0, 0, 0]\nfov = 30\n",
         {{"m.obj", boxObj({-1, -1, -1}, {1, 1, 1})}});
     const RenderConfig config = makeConfig("[image]\nsize = [640, 480]\nsamples = 1\n");
-    const SceneMeshes made = buildMeshes(config, scene, 1);
+    const FrameRequest request = frameRequest(config, 1);
+    const SceneAt at = sceneAt(scene, request);
+    const MeshOrders orders = orderMeshes(scene, at, request, {});
+    ASSERT_EQ(orders.orders.size(), 2u);
+    EXPECT_EQ(orders.orderOf, (std::vector<std::size_t>{0, 1, 0}));
+    MadeMeshes made = makeMeshes(scene, at, request, orders, [](const MeshOrder&) { return true; });
     ASSERT_EQ(made.meshes.size(), 2u);
-    EXPECT_EQ(made.meshOf, (std::vector<int>{0, 1, 0}));
-    const auto triangles = [&](std::size_t i) { return static_cast<double>(made.meshes[i].triangleCount()); };
+    const auto mesh = [&](std::size_t i) -> const TriMesh& { return made.meshes.at(orders.orders[i].key); };
+    const auto triangles = [&](std::size_t i) { return static_cast<double>(mesh(i).triangleCount()); };
     EXPECT_NEAR(triangles(0) / triangles(1), 9, 3);
     // Of the near spheres, 20 units away.
     const double pixelsPerUnit = 640 / (2 * std::tan(glm::radians(15.0))) / 19;
     double longest = 0;
-    for (std::size_t i = 0; i < made.meshes[0].indices.size(); i += 3)
+    for (std::size_t i = 0; i < mesh(0).indices.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k)
             longest = std::max(longest,
-                static_cast<double>(glm::distance(made.meshes[0].positions[made.meshes[0].indices[i + k]],
-                    made.meshes[0].positions[made.meshes[0].indices[i + (k + 1) % 3]])));
+                static_cast<double>(glm::distance(
+                    mesh(0).positions[mesh(0).indices[i + k]], mesh(0).positions[mesh(0).indices[i + (k + 1) % 3]])));
     EXPECT_LE(longest * pixelsPerUnit, 2 * std::sqrt(2.0)) << "a square's diagonal";
 }
 

@@ -1,6 +1,6 @@
 // What cannot be seen need not be drawn, and whether it is drawn cannot be seen.
 
-#include "frame/culling.h"
+#include "gpu/culling.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

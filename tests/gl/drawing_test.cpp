@@ -1,5 +1,6 @@
 // Drawings measure right on paper, whatever their resolution.
 
+#include "render/report.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>
@@ -201,10 +202,10 @@ TEST(DepthTangent, inBothSlotsIsOnePassFromDepthAlone) {
     const RenderConfig config = makeConfig(
         "[image]\nsize = [160, 120]\nsamples = 1\n[ao]\ntechnique = 'depth_tangent'\nreach = '2px'\nrange = "
         "'1%'\n[[edges]]\ntechnique = 'depth_tangent'\n[output]\naovs = ['beauty', 'depth_tangent', 'albedo']\n");
-    const ExplainedPlan plan = planConfig(config, scene, 1);
+    const PlanReport plan = reportPlan(config, scene, 1);
     int passes = 0;
-    for (const auto& planned : plan.frame.plan.passes) {
-        const Pass& pass = plan.frame.graph.passes[static_cast<std::size_t>(planned.pass)];
+    for (const auto& planned : plan.pipeline.plan.passes) {
+        const Pass& pass = plan.pipeline.graph.passes[static_cast<std::size_t>(planned.pass)];
         if (pass.technique != "depth_tangent") continue;
         ++passes;
         ASSERT_EQ(pass.reads.size(), 1u);

@@ -1,7 +1,7 @@
 // Colours of vertices, and holes that materials cut.
 
-#include "base/color.h"
 #include "base/file.h"
+#include "settings/color.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

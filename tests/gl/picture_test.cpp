@@ -1,6 +1,6 @@
 // Properties of finished pictures: alpha, crops, samples, ids, shadows, textures.
 
-#include "base/color.h"
+#include "settings/color.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>
@@ -74,7 +74,7 @@ TEST(Picture, samplesAverageToTheSamePicture) {
 
 TEST(Picture, sampleSplitIsExactAndFits) {
     for (int n = 1; n <= 64; ++n) {
-        const SampleSplit split = splitSamples(n, {1280, 720}, 16384);
+        const Sampling split = splitSamples(n, {1280, 720}, 16384);
         EXPECT_EQ(split.samples(), n);
     }
     EXPECT_EQ(splitSamples(16, {1280, 720}, 16384).raster, 4);

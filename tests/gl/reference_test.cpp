@@ -1,7 +1,7 @@
 // The ray tracer against scenes whose ambient occlusion is known, and against another renderer's pictures.
 
-#include "base/color.h"
 #include "image/image.h"
+#include "settings/color.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

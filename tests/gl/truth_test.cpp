@@ -1,6 +1,6 @@
 // Analytic truth through the whole pipeline: what a plane, a sphere and a wall must look like.
 
-#include "base/color.h"
+#include "settings/color.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // One picture, kept. It must match, and it must *not* match when a parameter moves by 2 %: a golden that everything
 // passes shows nothing.
 
-#include "render/frame_files.h"
+#include "job/frame_files.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>

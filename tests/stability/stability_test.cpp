@@ -37,24 +37,15 @@ std::vector<Case> allCases() {
             Case c{fmt::format("{}_{}{}{}", technique->slot, technique->name, preset.empty() ? "" : "_", preset), "",
                 {"beauty", "depth", "object_id", "normal"}, preset == "paper"};
             const std::string inlineTable = "{ " + choice + " }";
-            if (technique->slot == "geometry")
-                c.config = fmt::format("accuracy = '{}'\nshading = 'toon'\n", technique->name);
-            else if (technique->slot == "ao") {
-                c.config = "shading = 'toon'\nao = " + inlineTable + "\n";
-                c.aovs.push_back("ambient_occlusion");
-            } else if (technique->slot == "filter") {
-                c.config = "shading = 'toon'\nao = { technique = 'toon_ssao', filter = " + inlineTable + " }\n";
-                c.aovs.push_back("ambient_occlusion");
-            } else if (technique->slot == "shading") {
-                c.config = "shading = " + inlineTable + "\n";
-                c.aovs.push_back("shade");
-            } else if (technique->slot == "edges") {
-                c.config = "shading = 'toon'\nedges = " + inlineTable + "\n";
-                c.aovs.push_back("edges");
-            } else if (technique->slot == "composite")
-                c.config = "shading = 'toon'\n";
-            else
-                ADD_FAILURE() << "the suite does not know how to ask for slot " << technique->slot;
+            const Slot& slot = *findSlot(technique->slot);
+            c.config = slot.name == "shading" ? "" : "shading = 'toon'\n";
+            if (slot.parent().empty())
+                c.config += fmt::format("{} = {}\n", slot.key, inlineTable);
+            else  // within the section of another slot, of a technique that stands alone
+                c.config += fmt::format(
+                    "{} = {{ technique = 'toon_ssao', {} = {} }}\n", slot.parent(), slot.ownKey(), inlineTable);
+            for (const Aov* aov : slot.promises)
+                if (aov->isAveraged() && aov->name != "beauty") c.aovs.emplace_back(aov->name);
             cases.push_back(std::move(c));
         }
     }
@@ -402,7 +393,7 @@ TEST(Parameters, eachStandsForItself) {
             if (!f.type().names.empty())
                 value = was == '"' + std::string(f.type().names[0]) + '"' ? '"' + std::string(f.type().names[1]) + '"'
                                                                           : '"' + std::string(f.type().names[0]) + '"';
-            TechniqueChoice choice{technique, technique->makeParams(), {}, "default"};
+            TechniqueChoice choice{technique, technique->makeParams(), {}};
             ASSERT_NO_THROW(applySettings(choice, fmt::format("{} = {}", f.name, value)))
                 << technique->name << "." << f.name << " = " << value;
             for (const auto& other : technique->schema) {
@@ -413,7 +404,7 @@ TEST(Parameters, eachStandsForItself) {
             }
         }
         for (const auto& preset : technique->presets) {
-            TechniqueChoice choice{technique, technique->makeParams(), {}, "default"};
+            TechniqueChoice choice{technique, technique->makeParams(), {}};
             EXPECT_NO_THROW(applySettings(choice, preset.settings)) << technique->name << " " << preset.name;
         }
     }

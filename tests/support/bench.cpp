@@ -1,7 +1,7 @@
 #include "support/bench.h"
 
 #include "base/file.h"
-#include "config/document.h"
+#include "settings/document.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "base/color.h"
 #include "base/in_order.h"
-#include "base/params.h"
 #include "base/text.h"
-#include "base/uniform_block.h"
-#include "config/document.h"
+#include "settings/color.h"
+#include "settings/document.h"
+#include "settings/fields.h"
+#include "settings/uniform_block.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "scene/obj.h"
-#include "geometry/tri_mesh.h"
+#include "formats/obj.h"
+#include "mesh/tri_mesh.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

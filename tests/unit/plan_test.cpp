@@ -74,15 +74,15 @@ TEST(Plan, aRunMakesWhatItsOwnPassesRead) {
     b.pass("resolve", {ids}, {depth, normal});
     b.pass("lines", {depth, normal}, {lines});
     b.pass("shade", {depth, lines}, {beauty});
-    b.graph.passes[0].rate = Pass::Rate::subFrame;
-    b.graph.passes[2].rate = Pass::Rate::line;
+    b.graph.passes[0].rate = 2;
+    b.graph.passes[2].rate = 4;
     b.graph.passes[2].reads[0].halo = 6;
     const Wanted wanted[] = {{"beauty", beauty}};
     const Plan plan = compile(b.graph, wanted);
     EXPECT_EQ(plan.passes[1].halo, 6);
     const auto run = [&](bool first, bool findsLines) {
         return narrow(b.graph, plan, wanted, [&](const Pass& pass) {
-            return pass.rate == Pass::Rate::line ? findsLines : pass.rate == Pass::Rate::subFrame ? first : true;
+            return pass.rate == 4 ? findsLines : pass.rate == 2 ? first : true;
         });
     };
     const Plan all = run(true, true);

@@ -1,8 +1,8 @@
 // Rates per edge: neighbours agree to the bit, and Far's patches, where Bfr cannot go, lie on the same surface.
 
-#include "geometry/subdivide.h"
-#include "geometry/topology.h"
-#include "scene/obj.h"
+#include "formats/obj.h"
+#include "mesh/subdivide.h"
+#include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 

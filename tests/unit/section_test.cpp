@@ -1,6 +1,6 @@
 // Meshes cut open: what is left is a closed body of the right volume, and its cut face has the right area.
 
-#include "geometry/section.h"
+#include "mesh/section.h"
 
 #include <gtest/gtest.h>
 

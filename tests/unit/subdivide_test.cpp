@@ -1,9 +1,9 @@
 // Subdivision against independent implementations: OpenSubdiv's uniform refinement and limit, and the point sets that
 // Hbr made.
 
-#include "geometry/subdivide.h"
-#include "geometry/topology.h"
-#include "scene/obj.h"
+#include "mesh/subdivide.h"
+#include "formats/obj.h"
+#include "mesh/topology.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "lib/random.glsl"
 #include "lib/occlusion.glsl"
 #include "lib/slices.glsl"
-#include "frame/horizon.glsl"
+#include "effects/ao/horizon.glsl"
 
 // Horizons lower than this above the surface (sine) are what depths and normals are rounded to.
 const float LEAST_RISE = 1e-4;

@@ -4,7 +4,7 @@
 #include "lib/random.glsl"
 #include "lib/occlusion.glsl"
 #include "lib/slices.glsl"
-#include "frame/horizon.glsl"
+#include "effects/ao/horizon.glsl"
 
 #ifdef UNIFORM_WEIGHT
 // Hidden part along one direction: sin h − sin t, where h is the highest rise of the depth image above the picture's plane and t that of the

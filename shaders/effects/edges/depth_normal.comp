@@ -1,5 +1,5 @@
 // Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or belong to something else.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"

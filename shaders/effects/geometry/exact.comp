@@ -2,7 +2,7 @@
 //
 // The pixel's ray is taken into the mesh's own space, where the vertices are exactly what was uploaded, and intersected with the
 // triangle's plane in double precision: depth is right to half an ulp of the float it is stored in, at every distance and tilt.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/seen.glsl"

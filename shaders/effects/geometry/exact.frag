@@ -1,8 +1,8 @@
 // Writes only which triangle is seen; exact.comp finds out everything else, once per pixel that is seen.
 #include "lib/seen.glsl"
 #ifdef CUTOUTS
-#include "frame/scene.glsl"
-#include "frame/holes.glsl"
+#include "scene/scene.glsl"
+#include "scene/holes.glsl"
 in vec3 viewPoint;
 #endif
 

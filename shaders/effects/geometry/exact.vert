@@ -1,5 +1,5 @@
 // Visibility: where the triangles are, on the grid of the whole picture.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 #include "lib/snap.glsl"
 
 layout(location = 0) in vec3 meshPoint;

@@ -1,5 +1,5 @@
 // The classic G-buffer: what the hardware interpolated is what is written.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #if (defined(WRITES_albedo) && defined(TEXTURED)) || defined(CUTOUTS)

@@ -1,5 +1,5 @@
 // The classic G-buffer: attributes go through the hardware's interpolators.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 
 layout(location = 0) in vec3 meshPoint;
 layout(location = 1) in uint instance;

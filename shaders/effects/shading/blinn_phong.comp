@@ -1,5 +1,5 @@
 // Ambient, diffuse and Blinn-Phong light; ambient occlusion dims the ambient light alone.
-#include "frame/lighting.glsl"
+#include "scene/lighting.glsl"
 
 void main() {
     ivec2 pixel = thisPixel();

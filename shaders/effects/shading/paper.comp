@@ -1,5 +1,5 @@
 // Paper under a wash of ambient occlusion.
-#include "frame/scene.glsl"
+#include "scene/scene.glsl"
 #include "lib/space.glsl"
 
 void main() {

@@ -2,7 +2,7 @@
 //
 // Writes it in the red channel; with coloured lights the colour of the light, scaled to a largest channel of 1, in rgb and the intensity
 // in alpha.
-#include "frame/lighting.glsl"
+#include "scene/lighting.glsl"
 
 void main() {
     ivec2 pixel = thisPixel();

@@ -187,9 +187,12 @@ ResourceId addPass(EffectBuilder& graph, const Params& params, const std::string
     return result;
 }
 
+// The technique's two places, which are one image where both are filled.
+extern const Technique kDepthTangent, kDepthTangentLines;
+
 void build(EffectBuilder& graph, const Params& params) {
     graph.useEverySample();  // its occlusion is drawn with as sharp a pen as lines
-    if (const auto* lines = graph.chosen("edges", "depth_tangent")) {
+    if (const auto* lines = graph.chosen(kDepthTangentLines)) {
         // One image that is both. What the lines' section says of it would have to agree.
         const LineParams defaults;
         for (const auto& f : kLineParams)
@@ -210,7 +213,7 @@ void build(EffectBuilder& graph, const Params& params) {
 }
 
 void buildLines(EffectBuilder& graph, const LineParams& params) {
-    if (graph.chosen("ao", "depth_tangent") || params.opacity <= 0) return;
+    if (graph.chosen(kDepthTangent) || params.opacity <= 0) return;
     const LineConstants line{glm::vec4(params.color.r, params.color.g, params.color.b, 1) * params.opacity};
     graph.publish(aov::edges, addPass(graph, params, "edges" + graph.layerSuffix(), true, {{"AS_LINES", ""}}, &line));
 }

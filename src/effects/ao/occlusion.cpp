@@ -8,7 +8,7 @@ OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution) {
     if (resolution == Resolution::full) return inputs;
     Pass pass;
     pass.name = "halve_depth";
-    pass.shader = "frame/halve_depth";
+    pass.shader = "effects/ao/halve_depth";
     pass.reads = {{"depth", inputs.depth, 1}};
     inputs.depth = graph.image("depth_half", Format::r32f, 2);
     pass.writes = {{"result", inputs.depth}};
@@ -27,7 +27,7 @@ void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, Resou
         const ResourceId full = graph.image(aov::ambientOcclusionRaw);
         Pass pass;
         pass.name = "upsample";
-        pass.shader = "frame/upsample";
+        pass.shader = "effects/ao/upsample";
         pass.reads = {{"source", image, inputs.coarseness}, {"coarseDepth", inputs.depth, inputs.coarseness},
             {"depth", graph.read(aov::depth)}, {"normal", inputs.normal}};
         pass.writes = {{"result", full}};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "effects/technique.h"
-#include "frame/falloff.h"
+#include "rays/falloff.h"
 
 namespace limn {
 

@@ -6,10 +6,13 @@
 // CPU's threads, for just the pixels that show a surface.
 
 #include "effects/technique.h"
-#include "reference/ambient_occlusion.h"
+#include "rays/ambient_occlusion.h"
 
 namespace limn {
 namespace ao_ray_traced {
+
+const Aov kError{"ambient_occlusion_error", Format::r32f, {"Y"}, AovKind::numbers, AovUse::mean,
+    "Standard error of one sample's ambient_occlusion_raw, as the ray tracer estimates it.", "ray_traced"};
 
 struct Params {
     Length radius = Length::percent(5);
@@ -25,7 +28,7 @@ constexpr Field kParams[] = {
 };
 
 void build(EffectBuilder& graph, const Params& params) {
-    const ResourceId result = graph.image(aov::ambientOcclusionRaw), error = graph.image(aov::ambientOcclusionError);
+    const ResourceId result = graph.image(aov::ambientOcclusionRaw), error = graph.image(kError);
     Pass pass;
     pass.name = "ray_traced";
     pass.kind = Pass::Kind::host;
@@ -33,15 +36,16 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.writes = {{"result", result}, {"error", error}};
     pass.needs = SceneData::rays;
     const OcclusionQuery query{graph.view().normalized(params.radius), params.falloff, params.rays};
-    pass.work = [query, view = graph.view()](HostWork& work) {
-        traceAmbientOcclusion(*work.rays, view, {work.reads[0].values, work.reads[1].values}, query, work.part,
-            work.writes[0].values, work.writes[1].values);
+    pass.work = [query](HostWork& work) {
+        traceAmbientOcclusion(static_cast<const RayScene&>(*work.scene), *work.view,
+            {work.reads[0].values, work.reads[1].values}, query, work.part, work.writes[0].values,
+            work.writes[1].values);
     };
     pass.note = std::to_string(params.rays) + (params.rays == 1 ? " ray per pixel" : " rays per pixel");
     graph.add(std::move(pass));
     graph.publish(aov::ambientOcclusionRaw, result);
     graph.publish(aov::ambientOcclusion, result);
-    graph.publish(aov::ambientOcclusionError, error);
+    graph.publish(kError, error);
 }
 
 const Technique kRayTraced{

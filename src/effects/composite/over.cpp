@@ -5,16 +5,6 @@
 namespace limn {
 namespace composite_over {
 
-struct Params {
-    Color background{1, 1, 1};
-    bool transparent = false;
-};
-
-constexpr Field kParams[] = {
-    field<&Params::background>("background", "Colour where nothing is."),
-    field<&Params::transparent>("transparent", "Leave the background out."),
-};
-
 struct Constants {
     glm::vec4 background{0};
 };
@@ -22,7 +12,12 @@ constexpr Field kConstants[] = {
     field<&Constants::background>("background", "Linear, premultiplied; 0 in alpha for none."),
 };
 
-void build(EffectBuilder& graph, const Params& params) {
+Constants derive(const Background& background) {
+    const Color& color = background.color;
+    return {background.transparent ? glm::vec4(0) : glm::vec4(color.r, color.g, color.b, 1)};
+}
+
+void build(EffectBuilder& graph, const NoParams&) {
     const ResourceId result = graph.image(aov::beauty);
     Pass pass;
     pass.name = "over";
@@ -36,14 +31,12 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.defines.emplace_back("WITH_FACTOR", "");
     }
     pass.writes = {{"result", result}};
-    pass.params = paramsBlock(kConstants,
-        Constants{params.transparent ? glm::vec4(0)
-                                     : glm::vec4(params.background.r, params.background.g, params.background.b, 1)});
+    pass.params = paramsBlock(kConstants, derive(graph.background()));
     graph.add(std::move(pass));
     graph.publish(aov::beauty, result);
 }
 
-const Technique kOver{"composite", "over", "Lines over objects over the background.", kParams, build};
+const Technique kOver{"composite", "over", "Lines over objects over the background.", {}, build};
 
 }  // namespace composite_over
 }  // namespace limn

@@ -69,7 +69,7 @@ void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
         Pass made;
         made.name = name + suffix;
         made.rate = lineRate(graph);
-        made.shader = "frame/" + name;
+        made.shader = "effects/edges/" + name;
         made.reads = std::move(reads);
         made.writes = std::move(writes);
         made.note = std::move(note);

@@ -28,8 +28,8 @@ struct Stroke {
 
 /// How often lines must be found: where the triangles seen tell how they run, each sample finds them in the same place;
 /// else samples differ, and all are needed for smooth borders.
-inline Pass::Rate lineRate(const EffectBuilder& graph) {
-    return graph.find(aov::visibility) ? Pass::Rate::line : Pass::Rate::sample;
+inline int lineRate(const EffectBuilder& graph) {
+    return graph.find(aov::visibility) ? graph.view().lineSamples : kEverySample;
 }
 
 /// Adds the passes that draw lines between the pixels that `sides` names (an R32UI image, see shaders/lib/lines.glsl),

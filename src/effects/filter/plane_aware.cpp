@@ -50,7 +50,7 @@ void build(EffectBuilder& graph, const Params& params) {
     ResourceId packed = graph.image("ambient_occlusion_on_surface", Format::rgba32f);
     Pass gather;
     gather.name = "plane_aware_gather";
-    gather.shader = "frame/gather_surface";
+    gather.shader = "effects/filter/gather_surface";
     gather.reads = {{"source", graph.read(aov::ambientOcclusion)}, {"depth", graph.read(aov::depth)},
         {"normal", graph.read(aov::normalGeometric)}};
     gather.writes = {{"result", packed}};

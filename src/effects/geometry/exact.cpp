@@ -17,7 +17,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     Pass raster;
     raster.name = "visibility";
     raster.kind = Pass::Kind::raster;
-    raster.rate = Pass::Rate::subFrame;
+    raster.rate = graph.view().sampling.subFrames;
     raster.writes = {{"visibility", visibility}, {"zBuffer", zBuffer}};
     raster.needs = SceneData::positions;
     raster.note = "triangle ids only";

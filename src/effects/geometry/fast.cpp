@@ -12,6 +12,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     Pass raster;
     raster.name = "gbuffer";
     raster.kind = Pass::Kind::raster;
+    raster.isTiedToCanvas = true;
     raster.writes = publishSurfaces(graph);
     raster.writes.push_back({"zBuffer", graph.image("z_buffer", Format::depth32f)});
     raster.defines = surfaceDefines(graph);

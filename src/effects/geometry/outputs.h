@@ -24,7 +24,7 @@ inline std::vector<Write> publishSurfaces(EffectBuilder& graph) {
         const ResourceId image = graph.image(*aov);
         // Directions: NO_NORMAL of shaders/lib/normals.glsl.
         const glm::vec4 clear = aov == &aov::depth ? glm::vec4(kBackgroundDepth)
-            : aov->isDirection                     ? glm::vec4(2, 0, 0, 0)
+            : aov->kind == AovKind::direction      ? glm::vec4(2, 0, 0, 0)
                                                    : glm::vec4(0);
         writes.push_back({std::string(aov->name), image, needs, clear});
         graph.publish(*aov, image);

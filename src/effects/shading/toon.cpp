@@ -12,7 +12,7 @@
 
 #include "effects/shading/lighting.h"
 
-#include "base/color.h"
+#include "settings/color.h"
 
 namespace limn {
 enum class ToonSpace { perceptual, display };

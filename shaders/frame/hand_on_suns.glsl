@@ -1,8 +1,0 @@
-// For vertex shaders that hand on what fragment shaders read of suns without shadows; see frame/lights.glsl.
-#include "frame/lights.glsl"
-
-flat out vec4 sunDirection[LIGHT_COUNT], sunColor[LIGHT_COUNT];
-
-void handOnSuns() {
-    for (int i = 0; i < LIGHT_COUNT; ++i) sunDirection[i] = lights[i].direction, sunColor[i] = lights[i].color;
-}

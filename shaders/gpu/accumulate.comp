@@ -1,0 +1,7 @@
+// A sample's part of the sum over a pixel's samples.
+#include "lib/space.glsl"
+
+void main() {
+    ivec2 pixel = thisPixel();
+    if (insideRegion(pixel)) write_sum(load(source, pixel));
+}

@@ -1,0 +1,389 @@
+#include "formats/scene_file.h"
+
+#include "base/file.h"
+#include "base/text.h"
+#include "scene/frames.h"
+#include "settings/document.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace limn {
+namespace {
+
+struct SceneHeader {
+    Axis up = Axis::y;
+};
+constexpr Field kHeader[] = {
+    field<&SceneHeader::up>("up", "The axis that points up: \"y\" or \"z\"."),
+};
+
+struct Units {
+    double metersPerUnit = 1;
+};
+constexpr Field kUnits[] = {
+    field<&Units::metersPerUnit>(
+        "meters_per_unit", {.unit = "metres", .min = 1e-12, .max = 1e12}, "Size of one scene unit."),
+};
+
+constexpr Field kMesh[] = {
+    field<&MeshSource::name>("name", {.required = true}, "Name by which instances call the mesh."),
+    field<&MeshSource::file>("file", {.required = true},
+        "OBJ file, relative to the scene file; with #### for the number of the frame, a file for each that the scene "
+        "declares."),
+    field<&MeshSource::creases>("creases",
+        "Sidecar for files without subdivision tags: a TOML file with creases = [[vertex, vertex, sharpness], ...] and "
+        "corners = [[vertex, sharpness], ...]; vertices count from 0, sharpness 10 is infinite."),
+};
+
+constexpr Field kInstance[] = {
+    field<&Instance::name>("name", "Name of the object; the mesh's name if left out."),
+    field<&Instance::mesh>("mesh", {.required = true}, "Name of the mesh to draw."),
+    field<&Instance::material>("material", "Material that replaces those of the mesh."),
+    field<&Instance::translate>("translate", {.unit = "scene units"}, "Where the mesh's origin goes."),
+    field<&Instance::rotate>("rotate", {.unit = "degrees"}, "Turn about x, then y, then z."),
+    field<&Instance::scale>("scale", "Stretch along the mesh's axes; negative mirrors."),
+    field<&Instance::lines>("lines", "false: no lines are drawn of this object."),
+    field<&Instance::lineColor>("line_color", "Colour of the lines of this object; \"same\": as elsewhere."),
+    field<&Instance::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180},
+        "Smallest angle between normals that is drawn on this object; 0: as elsewhere."),
+    field<&Instance::matrix>("matrix", "4×4 matrix in row order, instead of translate, rotate and scale."),
+};
+
+constexpr Field kCamera[] = {
+    field<&Camera::name>("name", "Name by which configs call the camera."),
+    field<&Camera::position>("position", {.unit = "scene units", .required = true}, "Where the camera stands."),
+    field<&Camera::lookAt>("look_at", {.unit = "scene units", .required = true},
+        "The point in the middle of the picture (without shift)."),
+    field<&Camera::up>("up", "Direction that points up in the picture; the scene's up axis if left out."),
+    field<&Camera::focalLength>(
+        "focal_length", {.unit = "mm", .min = 0.01, .max = 1e5}, "Focal length; 35 if neither it nor fov is given."),
+    field<&Camera::sensorWidth>(
+        "sensor_width", {.unit = "mm", .min = 0.01, .max = 1e4}, "Width of the sensor behind the lens."),
+    field<&Camera::fov>(
+        "fov", {.unit = "degrees", .min = 0.001, .max = 179}, "Horizontal field of view, instead of focal_length."),
+    field<&Camera::orthographicHeight>("orthographic_height", {.unit = "scene units", .min = 1e-12},
+        "Height of the picture in the scene: makes the camera orthographic."),
+    field<&Camera::shift>("shift", {.min = -10, .max = 10},
+        "Lens shift right and up, in fractions of the longer image side; keeps verticals vertical."),
+    field<&Camera::near>(
+        "near", {.unit = "scene units", .min = 0}, "Nearest distance drawn; chosen from the scene if left out."),
+    field<&Camera::far>("far", {.unit = "scene units", .min = 0},
+        "Far distance that paper modes refer to; the scene's far end if left out."),
+};
+
+constexpr Field kLight[] = {
+    field<&Light::name>("name", "Name of the light."),
+    field<&Light::kind>("kind", "sun (parallel), point or spot."),
+    field<&Light::direction>("direction", "Direction in which the light travels (sun, spot)."),
+    field<&Light::position>("position", {.unit = "scene units"}, "Where the light stands (point, spot)."),
+    field<&Light::color>("color", "Colour of the light."),
+    field<&Light::intensity>("intensity", {.min = 0, .max = 1e6}, "Strength."),
+    field<&Light::range>("range", {.unit = "scene units", .min = 0},
+        "Distance at which a point or spot light has fallen to half; 0 = it does not fall."),
+    field<&Light::angle>("angle", {.unit = "degrees", .min = 0.1, .max = 179}, "Full opening angle of a spot."),
+    field<&Light::blend>("blend", {.min = 0, .max = 1}, "Part of a spot's cone over which it fades out."),
+};
+
+constexpr Field kShadow[] = {
+    field<&ShadowSettings::resolution>(
+        "resolution", {.unit = "texels", .min = 16, .max = 16384, .accuracy = true}, "Side of the shadow map."),
+    field<&ShadowSettings::softness>(
+        "softness", {.unit = "texels", .min = 0, .max = 16}, "Width of the shadow's edge."),
+};
+
+constexpr Field kSubdivision[] = {
+    field<&SubdivisionSettings::scheme>("scheme", "catmull-clark, loop (triangles) or bilinear."),
+    field<&SubdivisionSettings::level>("level", {.min = 0, .max = 10, .accuracy = true},
+        "Times that every edge is halved; with edge_length the most it may be."),
+    field<&SubdivisionSettings::limit>(
+        "limit", "Draw the limit surface; false: the points of plain refinement, as some programs show."),
+    field<&SubdivisionSettings::edgeLength>("edge_length",
+        "Cut edges to about this length over the camera's whole path: \"2px\" or scene units such as \"0.1\". Level 8 "
+        "then unless level is given."),
+    field<&SubdivisionSettings::boundary>("boundary",
+        "Rims of open meshes: none (faces at the rim vanish), edge_only (rounded corners), edge_and_corner, or what "
+        "the file says."),
+    field<&SubdivisionSettings::uvBoundary>("uv_boundary", "Where texture coordinates stay straight."),
+    field<&SubdivisionSettings::creaseMethod>("crease_method", "How semi-sharp creases soften: normal or chaikin."),
+};
+
+constexpr Field kMaterial[] = {
+    field<&Material::name>("name", {.required = true}, "Name; a material of the same name in an MTL file is replaced."),
+    field<&Material::color>("color", "Colour of the object."),
+    field<&Material::lines>("lines", "false: no lines are drawn of objects of this material."),
+    field<&Material::lineColor>(
+        "line_color", "Colour of the lines of objects of this material; \"same\": as elsewhere."),
+    field<&Material::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180},
+        "Smallest angle between normals that is drawn on objects of this material; 0: as elsewhere."),
+    field<&Material::texture>("texture", "Image multiplied onto the colour, relative to the scene file."),
+    field<&Material::cutout>("cutout",
+        "Image that cuts holes where its alpha (its brightness, if it has none) is below one half; relative to the "
+        "scene file."),
+    field<&Material::vertexColors>(
+        "vertex_colors", "Multiply the mesh's vertex colours, where it has any, onto the colour."),
+    field<&Material::shininess>(
+        "shininess", {.min = 0, .max = 10000}, "Exponent of the highlight; none at 1 or below."),
+    field<&Material::specular>("specular", {.min = 0, .max = 10}, "Strength of the highlight."),
+};
+
+constexpr Field kSection[] = {
+    field<&Section::name>(
+        "name", "Name by which configs ask for the cut (sections = [\"NAME\"]); without one it is always made."),
+    field<&Section::point>("point", {.unit = "scene units", .required = true}, "Any point on the plane."),
+    field<&Section::normal>("normal", {.required = true}, "Direction across the plane, towards what is cut away."),
+    field<&Section::fill>("fill", "Colour of the cut faces."),
+    field<&Section::hatch>(
+        "hatch", {.unit = "picture", .min = 0}, "Distance of hatching lines on the cut faces; 0 for none."),
+    field<&Section::hatchAngle>("hatch_angle", {.unit = "degrees"}, "Their angle from the picture's horizontal."),
+    field<&Section::hatchWidth>("hatch_width", {.unit = "picture", .min = 0}, "Their width."),
+    field<&Section::hatchColor>("hatch_color", "Their colour."),
+};
+
+struct Animation {
+    std::string frames;
+    double fps = 24;
+};
+constexpr Field kAnimation[] = {
+    field<&Animation::frames>("frames", {.required = true}, "Range of frames, such as \"1-240\"."),
+    field<&Animation::fps>("fps", {.unit = "frames per second", .min = 0.001, .max = 1e6}, "Playing speed."),
+};
+
+class SceneReader {
+public:
+    SceneReader(const Node& document, const std::filesystem::path& path) : document_(document) {
+        scene_.file = path.string();
+    }
+
+    Scene read() {
+        static constexpr std::string_view sections[] = {
+            "version", "units", "mesh", "instance", "camera", "light", "material", "section", "animation"};
+        SceneHeader header;
+        readVersion(document_, "the scene", errors_);
+        readFields(document_, kHeader, &header, nullptr, "the scene", errors_, sections);
+        scene_.up = header.up;
+        if (const Node* node = document_.find("units")) {
+            Units units;
+            readFields(*node, kUnits, &units, nullptr, "[units]", errors_);
+            scene_.metersPerUnit = units.metersPerUnit;
+        }
+        readAnimation();
+        forEach("mesh", [&](const Node& node) { readMesh(node); });
+        forEach("material", [&](const Node& node) { readMaterial(node); });
+        forEach("instance", [&](const Node& node) { readInstance(node); });
+        forEach("camera", [&](const Node& node) { readCamera(node); });
+        forEach("light", [&](const Node& node) { readLight(node); });
+        forEach("section", [&](const Node& node) { readSection(node); });
+        if (scene_.meshes.empty() && errors_.empty())
+            fail(document_, "the scene has no [[mesh]]", "add one:  [[mesh]]  name = \"chair\"  file = \"chair.obj\"");
+        errors_.throwIfAny();
+        if (scene_.instances.empty())
+            for (const auto& mesh : scene_.meshes)
+                scene_.instances.push_back({{.name = mesh.name, .mesh = mesh.name}, {}});
+        return std::move(scene_);
+    }
+
+private:
+    void fail(const Node& node, std::string problem, std::string remedy, ExitCode code = ExitCode::usage) {
+        errors_.add({code, node.where, std::move(problem), std::move(remedy)});
+    }
+
+    template <class Read>
+    void forEach(std::string_view section, Read read) {
+        const Node* list = document_.find(section);
+        if (!list) return;
+        if (!list->isArray())
+            return fail(*list, fmt::format("'{}' must be a list of tables", section),
+                fmt::format("write [[{}]] with two brackets", section));
+        for (const auto& node : list->array()) read(node);
+    }
+
+    template <class T>
+    Keyed<T> readTable(
+        const Node& node, Schema schema, std::string_view what, std::span<const std::string_view> alsoKnown = {}) {
+        Keyed<T> keyed;
+        readFields(node, schema, &keyed.base, &keyed.tracks, what, errors_, alsoKnown);
+        return keyed;
+    }
+
+    std::string resolveFile(const Node& node, std::string_view key, const std::string& file) {
+        if (file.empty()) return file;
+        const auto path = pathIn(*node.find(key));
+        if (!fileExists(path))
+            fail(*node.find(key), fmt::format("'{}' does not exist", path.string()),
+                "paths are relative to the file that names them", ExitCode::missingInput);
+        return path.string();
+    }
+
+    /// A file per frame: all that the scene declares must be there.
+    std::string resolveFrames(const Node& node) {
+        const auto path = pathIn(node);
+        const MeshSource source{.file = path.string(), .perFrame = true};
+        const FrameRange frames = scene_.frames.value_or(FrameRange{});
+        std::string first;
+        int missing = 0;
+        for (std::int64_t frame = frames.first; frame <= frames.last; ++frame)
+            if (const auto file = source.at(static_cast<int>(frame)); !fileExists(file) && missing++ == 0)
+                first = file.string();
+        if (missing > 0)
+            fail(node,
+                fmt::format("'{}' does not exist{}", first,
+                    missing > 1 ? fmt::format(", nor do {} more of its frames", missing - 1) : ""),
+                "#### stands for the number of each frame that the scene declares; paths are relative to the file that "
+                "names them",
+                ExitCode::missingInput);
+        return path.string();
+    }
+
+    void readAnimation() {
+        const Node* node = document_.find("animation");
+        if (!node) return;
+        Animation animation;
+        readFields(*node, kAnimation, &animation, nullptr, "[animation]", errors_);
+        scene_.fps = animation.fps;
+        scene_.frames = parseFrameRange(animation.frames);
+        if (!animation.frames.empty() && !scene_.frames)
+            fail(*node->find("frames"), fmt::format("frames '{}' is no range", animation.frames),
+                "write for example frames = \"1-240\"");
+    }
+
+    void readMesh(const Node& node) {
+        static constexpr std::string_view alsoKnown[] = {"subdivision"};
+        auto mesh = readTable<MeshSource>(node, kMesh, "[[mesh]]", alsoKnown).base;
+        if (const Node* settings = node.find("subdivision")) readSubdivision(*settings, mesh.subdivision);
+        mesh.creases = resolveFile(node, "creases", mesh.creases);
+        mesh.where = node.where;
+        // A file may simply have such a name.
+        mesh.perFrame =
+            hasFrameNumber(std::filesystem::path(mesh.file).filename()) && !fileExists(pathIn(*node.find("file")));
+        mesh.file = mesh.perFrame ? resolveFrames(*node.find("file")) : resolveFile(node, "file", mesh.file);
+        if (!meshNames_.insert(mesh.name).second)
+            fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
+        scene_.meshes.push_back(std::move(mesh));
+    }
+
+    void readSubdivision(const Node& node, SubdivisionSettings& settings) {
+        settings.present = true;
+        readFields(node, kSubdivision, &settings, nullptr, "subdivision", errors_);
+        if (settings.edgeLength.empty()) return;
+        if (!node.find("level")) settings.level = 8;
+        if (!settings.wantedEdge())
+            fail(*node.find("edge_length"), fmt::format("edge_length '{}' is no length", settings.edgeLength),
+                "write \"2px\", or scene units such as \"0.1\"");
+    }
+
+    void readMaterial(const Node& node) {
+        auto material = readTable<Material>(node, kMaterial, "[[material]]");
+        material.base.texture = resolveFile(node, "texture", material.base.texture);
+        material.base.cutout = resolveFile(node, "cutout", material.base.cutout);
+        if (!materialNames_.insert(material.base.name).second)
+            fail(node, fmt::format("there are two materials named '{}'", material.base.name), "give each its own name");
+        scene_.materials.push_back(std::move(material));
+    }
+
+    void requireName(
+        const Node& node, std::string_view key, const std::string& name, const std::set<std::string>& names) {
+        if (!node.find(key) || names.contains(name)) return;
+        const std::vector<std::string> candidates(names.begin(), names.end());
+        fail(node.find(key) ? *node.find(key) : node, fmt::format("there is no {} named '{}'", key, name),
+            candidates.empty() ? fmt::format("add a [[{}]] with that name", key) : nameRemedy(name, candidates));
+    }
+
+    void readInstance(const Node& node) {
+        auto instance = readTable<Instance>(node, kInstance, "[[instance]]");
+        requireName(node, "mesh", instance.base.mesh, meshNames_);
+        requireName(node, "material", instance.base.material, materialNames_);
+        if (const Node* matrix = node.find("matrix")) {
+            const auto& m = instance.base.matrix;
+            if (m.size() != 16)
+                fail(*matrix, fmt::format("'matrix' has {} numbers", m.size()), "give 16, in row order");
+            else if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+                fail(*matrix, "the last row of 'matrix' is not 0 0 0 1",
+                    "rows come one after the other; translation stands at the end of the first three");
+            for (const auto other : {"translate", "rotate", "scale"})
+                if (node.find(other))
+                    fail(*node.find(other), fmt::format("'{}' stands beside 'matrix'", other), "use one or the other");
+        }
+        if (instance.base.name.empty()) instance.base.name = instance.base.mesh;
+        scene_.instances.push_back(std::move(instance));
+    }
+
+    void readCamera(const Node& node) {
+        auto camera = readTable<Camera>(node, kCamera, "[[camera]]");
+        if (camera.base.name.empty()) camera.base.name = fmt::format("camera{}", scene_.cameras.size() + 1);
+        int lenses = 0;
+        for (const auto key : {"focal_length", "fov", "orthographic_height"}) lenses += node.find(key) != nullptr;
+        if (camera.base.far > 0 && camera.base.near >= camera.base.far)
+            fail(node, "the camera's near distance is not below its far distance", "lower near or raise far");
+        if (lenses > 1)
+            fail(node, "a camera can have only one of focal_length, fov and orthographic_height", "remove the others");
+        if (node.find("position") && node.find("look_at") && !camera.moves()
+            && camera.base.position == camera.base.lookAt)
+            fail(*node.find("look_at"), "the camera looks at the point where it stands",
+                "move look_at away from position");
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    void readLight(const Node& node) {
+        static constexpr std::string_view alsoKnown[] = {"shadow"};
+        auto light = readTable<Light>(node, kLight, "[[light]]", alsoKnown);
+        if (const Node* shadow = node.find("shadow")) {
+            light.base.shadow.present = true;
+            readFields(*shadow, kShadow, &light.base.shadow, nullptr, "shadow", errors_);
+        }
+        if (light.base.kind != LightKind::point && glm::length(light.base.direction) == 0)
+            fail(node, "the light's direction has no length", "give a direction such as [-1, -2, -1]");
+        scene_.lights.push_back(std::move(light));
+    }
+
+    void readSection(const Node& node) {
+        auto section = readTable<Section>(node, kSection, "[[section]]");
+        if (node.find("normal") && glm::length(section.base.normal) == 0)
+            fail(*node.find("normal"), "the section's normal has no length", "give a direction such as [0, 0, 1]");
+        for (const auto& other : scene_.sections)
+            if (!section.base.name.empty() && other.base.name == section.base.name)
+                fail(node, fmt::format("there are two sections named '{}'", section.base.name),
+                    "give each its own name");
+        scene_.sections.push_back(std::move(section));
+    }
+
+    const Node& document_;
+    Scene scene_;
+    ErrorCollector errors_;
+    std::set<std::string> meshNames_, materialNames_;
+};
+
+}  // namespace
+
+std::vector<SceneSection> sceneSections() {
+    return {{"", "top of the file", kHeader}, {"[units]", "what the numbers mean", kUnits},
+        {"[[mesh]]", "a mesh file", kMesh},
+        {"[[mesh]] subdivision", "draws the subdivision surface of the mesh; without it, its polygons as they are",
+            kSubdivision},
+        {"[[instance]]", "a mesh placed in the scene; without any, each mesh is drawn once where it was modelled",
+            kInstance},
+        {"[[camera]]", "a camera; without any, one that frames the scene", kCamera},
+        {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight},
+        {"[[light]] shadow", "shadow map of a light; without it the light casts none and costs none", kShadow},
+        {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial},
+        {"[[section]]", "a plane that cuts the scene open", kSection},
+        {"[animation]", "declared frames; without them the scene is a still", kAnimation}};
+}
+
+Scene parseScene(const Node& document, const std::filesystem::path& path) { return SceneReader(document, path).read(); }
+
+Scene readScene(const std::filesystem::path& path, std::vector<std::filesystem::path>* files) {
+    return parseScene(readDocument(path, files), path);
+}
+
+static SceneFile readToml(const std::filesystem::path& path) {
+    SceneFile file;
+    file.scene = readScene(path, &file.files);
+    return file;
+}
+
+const SceneFormat kSceneToml{".toml", "limn's own scenes: meshes placed, lit and seen by cameras", readToml};
+
+}  // namespace limn

@@ -1,0 +1,46 @@
+// One buffer for many owners: each has a piece of it that can be put and dropped without touching the others.
+#pragma once
+
+#include "gl/objects.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace limn {
+
+/// A piece of an arena, in elements.
+struct ArenaPiece {
+    std::uint32_t first = 0, count = 0;
+};
+
+class Arena {
+public:
+    Arena() = default;
+    /// `stride`: bytes of an element. `most`: elements that the device takes. `mappable`: see gl::Buffer.
+    Arena(std::string label, std::size_t stride, std::uint64_t most, bool mappable = false);
+
+    /// Makes room for so many elements more, so that the buffer is replaced once instead of at every put.
+    void reserve(std::uint64_t elements);
+    /// A piece with these bytes. Throws Error (outOfMemory) where the device takes no more elements.
+    ArenaPiece put(std::span<const std::byte> bytes);
+    void write(const ArenaPiece& piece, std::span<const std::byte> bytes);  ///< of a piece's own size
+    void drop(const ArenaPiece& piece);
+
+    const gl::Buffer& buffer() const { return buffer_; }
+    /// Changes whenever the buffer is another one.
+    int generation() const { return generation_; }
+
+private:
+    void grow(std::uint64_t elements);
+
+    std::string label_;
+    std::size_t stride_ = 4;
+    std::uint64_t most_ = 0, capacity_ = 0, end_ = 0;  ///< elements; what lies from end_ on was never used
+    bool mappable_ = false;
+    int generation_ = 0;
+    std::map<std::uint32_t, std::uint32_t> free_;  ///< pieces before end_ that nobody has: first and count
+    gl::Buffer buffer_;
+};
+
+}  // namespace limn

@@ -1,0 +1,85 @@
+#include "gpu/atlas.h"
+
+#include "base/error.h"
+#include "image/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace limn {
+namespace {
+
+using Files = std::pair<std::string, std::string>;  ///< of colours, and of holes
+Files filesOf(const Material& material) { return {material.texture, material.cutout}; }
+
+struct Layout {
+    int side = 256, layers = 1;  ///< of the texture, in texels
+    std::map<Files, glm::ivec3> corners;
+};
+
+/// Shelves: tallest first, left to right, then the next shelf, then the next layer.
+Layout layOut(const std::map<Files, MipChain>& chains, int maxTextureSize) {
+    Layout layout;
+    std::vector<std::pair<Files, const MipChain*>> order;
+    int& side = layout.side;
+    for (const auto& [files, chain] : chains) {
+        order.emplace_back(files, &chain);
+        const glm::ivec2 footprint = chain.footprint();
+        while (side < std::max(footprint.x, footprint.y)) side *= 2;
+        if (side > maxTextureSize)
+            throw Error(ExitCode::outOfMemory, {files.first.empty() ? files.second : files.first},
+                fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y),
+                "make it smaller");
+    }
+    std::stable_sort(order.begin(), order.end(),
+        [](const auto& a, const auto& b) { return a.second->footprint().y > b.second->footprint().y; });
+    glm::ivec3 pen(0);
+    int shelf = 0;
+    for (const auto& [files, chain] : order) {
+        const glm::ivec2 footprint = chain->footprint();
+        if (pen.x + footprint.x > side) {
+            pen.x = 0;
+            pen.y += shelf;
+            shelf = 0;
+        }
+        if (pen.y + footprint.y > side) {
+            pen = {0, 0, pen.z + 1};
+            shelf = 0;
+        }
+        layout.corners[files] = pen;
+        pen.x += footprint.x;
+        shelf = std::max(shelf, footprint.y);
+    }
+    layout.layers = pen.z + 1;
+    return layout;
+}
+
+}  // namespace
+
+void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
+    if (keys_ == scene.textureKeys) return;
+    keys_ = scene.textureKeys;
+    places_.assign(scene.materials.size(), {});
+    texture_ = {};
+    std::map<Files, MipChain> chains;
+    for (const auto& material : scene.materials)
+        if (!material.texture.empty() || !material.cutout.empty()) chains[filesOf(material)];
+    if (chains.empty()) return;
+    for (auto& [files, chain] : chains)
+        chain = makeMipChain(readTexture(files.first, files.second), !files.second.empty());
+    Layout layout = layOut(chains, maxTextureSize);
+    texture_ = gl::Texture::pictureArray(layout.side, layout.layers, "texture atlas");
+    for (const auto& [files, chain] : chains)
+        for (int l = 0; l < chain.levels(); ++l)
+            texture_.writeLayer(layout.corners[files].z, glm::ivec2(layout.corners[files]) + chain.levelOrigin(l),
+                chain.levelSize(l), chain.pixels[static_cast<std::size_t>(l)].data());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (const auto known = chains.find(filesOf(scene.materials[i])); known != chains.end())
+            places_[i] = {layout.corners[known->first], known->second.levels(), known->second.size};
+}
+
+}  // namespace limn

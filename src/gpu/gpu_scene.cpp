@@ -1,0 +1,466 @@
+#include "gpu/gpu_scene.h"
+
+#include "base/error.h"
+#include "base/in_order.h"
+#include "gpu/lights.h"
+#include "settings/color.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <set>
+
+namespace limn {
+namespace {
+
+// Texture units of the buffers in shaders/scene/scene.glsl and of the atlas in shaders/lib/texture.glsl.
+enum Unit {
+    positionsUnit = 6,
+    trianglesUnit,
+    normalsUnit,
+    triangleNormalsUnit,
+    uvsUnit,
+    triangleUvsUnit,
+    wordsUnit,
+    instancesUnit,
+    materialsUnit,
+    atlasUnit
+};
+constexpr int kLightsBinding = 2;
+
+// One instance, as shaders/scene/scene.glsl fetches it: twelve texels of sixteen bytes.
+struct GpuInstance {
+    double meshFromView[3][4];
+    float viewFromMesh[3][4];
+    std::uint32_t firstVertex, firstTriangle, materialTable, firstObject;
+    std::uint32_t materialWords, partWords, firstNormal, firstUv;
+    std::uint32_t triangleCount, colorWords, padding[2];
+};
+static_assert(sizeof(GpuInstance) == 12 * 16);
+
+// Five texels.
+struct GpuMaterial {
+    float color[3], levels;
+    float shininess, specular, layer, flags;
+    float place[4];
+    float hatchX, hatchY, hatchWidth, padding2;
+    float hatchColor[4];
+};
+static_assert(sizeof(GpuMaterial) == 5 * 16);
+
+// Of GpuMaterial::flags.
+constexpr int kHasHoles = 1, kTakesVertexColors = 2;
+
+constexpr std::uint32_t kNoWords = ~0u;
+
+// Scenes with fewer triangles are always drawn whole: even software renderers take but some milliseconds.
+constexpr std::size_t kManyTriangles = 1 << 16;
+
+template <class T>
+std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+/// Vertex colours as shaders/scene/scene.glsl reads them: ten display-encoded bits each; of each corner of each
+/// triangle, or of each vertex where those are unified.
+std::vector<std::uint32_t> packColors(const TriMesh& mesh) {
+    std::vector<std::uint32_t> packed(mesh.colors.size()), corners;
+    tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t i) {
+        for (int k = 0; k < 3; ++k)
+            packed[i] |=
+                static_cast<std::uint32_t>(std::lround(linearToSrgb(std::clamp(mesh.colors[i][k], 0.0f, 1.0f)) * 1023))
+                << (10 * k);
+    });
+    if (mesh.colorIndices.empty()) return packed;
+    corners.reserve(mesh.colorIndices.size());
+    for (const auto i : mesh.colorIndices) corners.push_back(packed[i]);
+    return corners;
+}
+
+/// A scale of 0 flattens a mesh, which is a fair thing to ask for but leaves no way back from the view: a billionth of
+/// the size does both.
+glm::dmat3 invertible(glm::dmat3 m) {
+    const double size = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+    if (size == 0) return glm::dmat3(std::numeric_limits<float>::min());
+    for (int c = 0; c < 3; ++c) {
+        if (glm::length(m[c]) > 1e-9 * size) continue;
+        glm::dvec3 across = glm::cross(m[(c + 1) % 3], m[(c + 2) % 3]);
+        if (glm::length(across) == 0)
+            across = glm::length(m[(c + 1) % 3]) > 0 ? glm::dvec3(-m[(c + 1) % 3].y, m[(c + 1) % 3].x, 1e-3 * size)
+                                                     : glm::dvec3(0, 0, 1);
+        m[c] = glm::normalize(across) * (1e-9 * size);
+    }
+    return m;
+}
+
+/// Where an instance's mesh is, seen from its pivot: normalized view space from mesh units.
+struct Placement {
+    glm::dmat3 linear;
+    glm::dvec3 pivot;
+};
+
+Placement placementOf(const DrawInstance& instance, const glm::dvec3& pivot, const View& view) {
+    return {invertible(view.viewFromRelative * glm::dmat3(instance.worldFromMesh)),
+        view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(pivot, 1)))};
+}
+
+/// Numbers of three attributes per triangle, or zeros where a mesh has none: they lie beside its triangles.
+std::vector<std::uint32_t> besideTriangles(const std::vector<std::uint32_t>& indices, const TriMesh& mesh) {
+    return indices.size() == mesh.indices.size() ? indices : std::vector<std::uint32_t>(mesh.indices.size());
+}
+
+GpuMaterial packMaterial(const Material& m, const AtlasPlace& place) {
+    const auto number = [](int value) { return static_cast<float>(value); };
+    GpuMaterial gpu{{m.color.r, m.color.g, m.color.b}, number(place.levels), m.shininess, m.specular,
+        number(place.corner.z), number((m.cutout.empty() ? 0 : kHasHoles) | (m.vertexColors ? kTakesVertexColors : 0)),
+        {number(place.corner.x), number(place.corner.y), number(place.size.x), number(place.size.y)}, 0, 0,
+        static_cast<float>(m.hatch.width), 0, {m.hatch.color.r, m.hatch.color.g, m.hatch.color.b, 0}};
+    if (m.hatch.spacing > 0) {  // across the lines, one per distance between them
+        gpu.hatchX = static_cast<float>(-std::sin(glm::radians(m.hatch.angle)) / m.hatch.spacing);
+        gpu.hatchY = static_cast<float>(std::cos(glm::radians(m.hatch.angle)) / m.hatch.spacing);
+    }
+    return gpu;
+}
+
+/// Writes what has changed of a small buffer; makes it anew where its size has. Is it another buffer now?
+bool putChanged(gl::Buffer& buffer, std::vector<std::byte>& known, std::span<const std::byte> data, const char* label) {
+    if (buffer && std::equal(known.begin(), known.end(), data.begin(), data.end())) return false;
+    const bool isNew = !buffer || buffer.size() != data.size();
+    if (isNew)
+        buffer = gl::Buffer(data, label);
+    else
+        buffer.write(data);
+    known.assign(data.begin(), data.end());
+    return isNew;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const gl::Limits& limits, bool isSoftware) : limits_(limits), isSoftware_(isSoftware) {}
+
+void GpuScene::require(SceneData needs, std::size_t lineRecords) {
+    const std::size_t recordWords = lineRecords * lineRecordWords({}).size();
+    if (isReady_ && needs == needs_ && recordWords <= records_.count) return;
+    isReady_ = true;
+    needs_ = needs;
+    const auto most = static_cast<std::uint64_t>(limits_.maxBufferTexels);
+    slots_.clear();
+    shown_.clear();
+    positions_ = Arena("vertices", sizeof(glm::vec3), most, isSoftware_);
+    triangles_ = Arena("triangles", 3 * sizeof(std::uint32_t), most, isSoftware_);
+    normals_ = Arena("normals", sizeof(glm::vec3), most);
+    triangleNormals_ = Arena("triangles' normals", 3 * sizeof(std::uint32_t), most);
+    uvs_ = Arena("uvs", sizeof(glm::vec2), most);
+    triangleUvs_ = Arena("triangles' uvs", 3 * sizeof(std::uint32_t), most);
+    words_ = Arena("materials, parts and vertex colours", sizeof(std::uint32_t), most);
+    records_ = {0, static_cast<std::uint32_t>(recordWords)};
+    tables_ = {};
+    tableWords_.clear();
+    if (has(needs, SceneData::positions)) words_.put(bytesOf(std::vector<std::uint32_t>(recordWords)));
+}
+
+std::uint32_t GpuScene::putWords(Slot& slot, const std::vector<std::uint32_t>& values) {
+    if (values.empty()) return kNoWords;
+    slot.words.push_back(words_.put(bytesOf(values)));
+    return slot.words.back().first;
+}
+
+void GpuScene::putMesh(const ContentKey& key, const TriMesh& mesh) {
+    Slot& slot = slots_[key];
+    slot.positions = positions_.put(bytesOf(mesh.positions));
+    slot.triangles = triangles_.put(bytesOf(mesh.indices));
+    if (has(needs_, SceneData::normals)) slot.normals = normals_.put(bytesOf(mesh.normals));
+    if (has(needs_, SceneData::uvs)) slot.uvs = uvs_.put(bytesOf(mesh.uvs));
+    // These two lie beside the triangles: shaders find them by the same number.
+    const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
+    if (hasOwnIndices && has(needs_, SceneData::normals))
+        slot.triangleNormals = triangleNormals_.put(bytesOf(besideTriangles(mesh.normalIndices, mesh)));
+    if (hasOwnIndices && has(needs_, SceneData::uvs))
+        slot.triangleUvs = triangleUvs_.put(bytesOf(besideTriangles(mesh.uvIndices, mesh)));
+    assert(slot.triangleNormals.count == 0 || slot.triangleNormals.first == slot.triangles.first);
+    assert(slot.triangleUvs.count == 0 || slot.triangleUvs.first == slot.triangles.first);
+    slot.place = {slot.positions.first, slot.normals.first, slot.uvs.first, slot.triangles.first,
+        static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, kNoWords, mesh.pivot};
+    if (has(needs_, SceneData::materials)) slot.place.materialWords = putWords(slot, mesh.triangleMaterial);
+    slot.place.partWords = putWords(slot, mesh.trianglePart);
+    if (has(needs_, SceneData::colors)) slot.place.colorWords = putWords(slot, packColors(mesh));
+}
+
+void GpuScene::dropMesh(const Slot& slot) {
+    positions_.drop(slot.positions);
+    triangles_.drop(slot.triangles);
+    normals_.drop(slot.normals);
+    uvs_.drop(slot.uvs);
+    triangleNormals_.drop(slot.triangleNormals);
+    triangleUvs_.drop(slot.triangleUvs);
+    for (const auto& piece : slot.words) words_.drop(piece);
+}
+
+void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made) {
+    const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
+    for (auto slot = slots_.begin(); slot != slots_.end();)
+        if (wanted.contains(slot->first)) {
+            ++slot;
+        } else {
+            dropMesh(slot->second);
+            slot = slots_.erase(slot);
+        }
+    std::vector<std::pair<ContentKey, const TriMesh*>> missing;
+    std::uint64_t vertices = 0, triangles = 0, normals = 0, uvs = 0;
+    for (const auto& key : wanted) {
+        if (slots_.contains(key)) continue;
+        const TriMesh& mesh = made.at(key);
+        missing.emplace_back(key, &mesh);
+        vertices += mesh.positions.size();
+        triangles += mesh.triangleCount();
+        normals += mesh.normals.size();
+        uvs += mesh.uvs.size();
+    }
+    if (slots_.empty()) {  // the first time, exactly as much as is needed
+        const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
+        positions_.reserve(vertices);
+        triangles_.reserve(triangles);
+        if (has(needs_, SceneData::normals)) normals_.reserve(normals);
+        if (has(needs_, SceneData::uvs)) uvs_.reserve(uvs);
+        if (hasOwnIndices && has(needs_, SceneData::normals)) triangleNormals_.reserve(triangles);
+        if (hasOwnIndices && has(needs_, SceneData::uvs)) triangleUvs_.reserve(triangles);
+    }
+    for (const auto& [key, mesh] : missing) putMesh(key, *mesh);
+    shown_.clear();
+    for (const auto& key : meshOf) shown_.push_back(&slots_.at(key));
+
+    std::size_t drawn = 0;
+    for (const Slot* slot : shown_) drawn += slot->place.triangleCount;
+    isCullable_ = isSoftware_ && drawn >= kManyTriangles;
+    if (!isCullable_) return;
+    for (const auto& [key, mesh] : missing) slots_.at(key).clusters = makeClusters(*mesh);
+    // A scene that has become large by what was added: what was there before is drawn whole until it changes.
+    for (const Slot* slot : shown_)
+        isCullable_ = isCullable_ && (!slot->clusters.empty() || slot->place.triangleCount == 0);
+}
+
+void GpuScene::putTables(const SceneAt& scene) {
+    std::vector<std::uint32_t> words;
+    for (const auto& record : scene.lineRecords)
+        for (const auto word : lineRecordWords(record)) words.push_back(word);
+    const std::size_t recordWords = words.size();
+    materialTables_.clear();
+    for (const auto& instance : scene.instances) {
+        materialTables_.push_back(static_cast<std::uint32_t>(words.size() - recordWords));
+        for (std::size_t i = 0; i < instance.materials.size(); ++i)
+            words.insert(words.end(), {instance.materials[i], instance.lineRecords[i]});
+    }
+    const std::span<const std::uint32_t> all(words), tables = all.subspan(recordWords);
+    if (words != tableWords_) {
+        words_.write({0, static_cast<std::uint32_t>(recordWords)}, std::as_bytes(all.first(recordWords)));
+        if (tables_.count == tables.size()) {
+            words_.write(tables_, std::as_bytes(tables));
+        } else {
+            words_.drop(tables_);
+            tables_ = words_.put(std::as_bytes(tables));
+        }
+        tableWords_ = words;
+    }
+    for (auto& table : materialTables_) table += tables_.first;
+}
+
+void GpuScene::putCommands() {
+    std::vector<gl::DrawCommand> commands;
+    std::vector<std::uint32_t> numbers;
+    for (const Slot* slot : shown_) {
+        const MeshPlace& place = slot->place;
+        const auto number = static_cast<std::uint32_t>(numbers.size());
+        commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3,
+            static_cast<std::int32_t>(place.firstVertex), number});
+        numbers.push_back(number);
+    }
+    putChanged(commands_, commandBytes_, bytesOf(commands), "draw commands");
+    if (putChanged(instanceNumbers_, numberBytes_, bytesOf(numbers), "instance numbers")) generations_.clear();
+}
+
+void GpuScene::connect() {
+    const std::vector<int> generations{positions_.generation(), triangles_.generation(), normals_.generation(),
+        triangleNormals_.generation(), uvs_.generation(), triangleUvs_.generation(), words_.generation()};
+    if (generations == generations_) return;
+    generations_ = generations;
+    const auto view = [](const Arena& arena, gl::Element element, const char* label) {
+        return arena.buffer() ? gl::BufferView(arena.buffer(), element, label) : gl::BufferView();
+    };
+    positionsView_ = view(positions_, gl::Element::float3, "positions");
+    trianglesView_ = view(triangles_, gl::Element::uint3, "triangles");
+    normalsView_ = view(normals_, gl::Element::float3, "normals");
+    triangleNormalsView_ = view(triangleNormals_, gl::Element::uint3, "triangles' normals");
+    uvsView_ = view(uvs_, gl::Element::float2, "uvs");
+    triangleUvsView_ = view(triangleUvs_, gl::Element::uint3, "triangles' uvs");
+    wordsView_ = view(words_, gl::Element::uint1, "words");
+    // Vertex pipelines take normals and uvs by the vertex's own number.
+    const bool isUnified = has(needs_, SceneData::unifiedVertices);
+    inputs_ = {{&positions_.buffer(), 0, 3}, {&instanceNumbers_, 1, 0}};
+    if (isUnified && has(needs_, SceneData::normals)) inputs_.push_back({&normals_.buffer(), 2, 3});
+    if (isUnified && has(needs_, SceneData::uvs)) inputs_.push_back({&uvs_.buffer(), 3, 2});
+    vertexArray_ = gl::VertexArray(inputs_, triangles_.buffer(), "scene");
+}
+
+void GpuScene::update(
+    const SceneAt& scene, std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made) {
+    if (!has(needs_, SceneData::positions)) return;
+    const auto mostLights = static_cast<std::size_t>(limits_.maxUniformBlock) / lightSize();
+    if (has(needs_, SceneData::lights) && scene.lights.size() > mostLights)
+        throw Error(ExitCode::badData, {},
+            fmt::format(
+                "the scene has {} lights, more than this GL device takes ({})", scene.lights.size(), mostLights),
+            "remove some");
+    putMeshes(meshOf, made);
+    putTables(scene);
+    putCommands();
+    connect();
+    if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
+    if (!has(needs_, SceneData::materials)) return;
+    std::vector<GpuMaterial> materials;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        materials.push_back(
+            packMaterial(scene.materials[i], has(needs_, SceneData::textures) ? atlas_.places()[i] : AtlasPlace()));
+    if (putChanged(materials_, materialBytes_, bytesOf(materials), "materials"))
+        materialsView_ = gl::BufferView(materials_, gl::Element::float4, "materials");
+}
+
+std::vector<std::byte> GpuScene::instanceBytes(const SceneAt& scene, const View& view) const {
+    std::vector<GpuInstance> instances;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& instance = scene.instances[i];
+        const MeshPlace& place = shown_[i]->place;
+        const auto [linear, pivot] = placementOf(instance, place.pivot, view);
+        const glm::dmat3 inverse = glm::inverse(linear);
+        const glm::dvec3 offset = inverse * -pivot;
+        GpuInstance gpu{};
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                gpu.meshFromView[row][column] = inverse[column][row];
+                gpu.viewFromMesh[row][column] = static_cast<float>(linear[column][row]);
+            }
+            gpu.meshFromView[row][3] = offset[row];
+            gpu.viewFromMesh[row][3] = static_cast<float>(pivot[row]);
+        }
+        gpu.firstVertex = place.firstVertex;
+        gpu.firstTriangle = place.firstTriangle;
+        gpu.materialTable = materialTables_[i];
+        gpu.firstObject = instance.firstObject;
+        gpu.materialWords = place.materialWords;
+        gpu.partWords = place.partWords;
+        gpu.firstNormal = place.firstNormal;
+        gpu.firstUv = place.firstUv;
+        gpu.triangleCount = place.triangleCount;
+        gpu.colorWords = place.colorWords;
+        instances.push_back(gpu);
+    }
+    const auto bytes = bytesOf(instances);
+    return {bytes.begin(), bytes.end()};
+}
+
+void GpuScene::placeMeshes(const SceneAt& scene, const View& view) {
+    const glm::vec2 low((view.region.origin - view.canvas.origin) * view.sampling.raster);
+    cullView_ = {{}, low, low + glm::vec2(view.region.size * view.sampling.raster), view.orthographic};
+    // Clip space spans the canvas: −1 … 1 become its fine pixels.
+    const glm::dvec2 half = 0.5 * glm::dvec2(view.canvas.size * view.sampling.raster);
+    glm::dmat4 pixelFromClip(1);
+    pixelFromClip[0][0] = half.x;
+    pixelFromClip[1][1] = half.y;
+    pixelFromClip[3][0] = half.x;
+    pixelFromClip[3][1] = half.y;
+    const glm::dmat4 pixelFromView = pixelFromClip * view.clipFromView();
+    const auto absolute = [](glm::dmat4 m) {
+        for (int column = 0; column < 4; ++column) m[column] = glm::abs(m[column]);
+        return m;
+    };
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshPlace& place = shown_[i]->place;
+        const auto [linear, pivot] = placementOf(scene.instances[i], place.pivot, view);
+        glm::dmat4 viewFromMesh(linear);
+        viewFromMesh[3] = glm::dvec4(pivot, 1);
+        PlacedMesh mesh{shown_[i]->clusters, place.firstVertex, 3 * std::size_t{place.firstTriangle},
+            glm::mat4(pixelFromView * viewFromMesh), glm::mat4(absolute(pixelFromView) * absolute(viewFromMesh)), {}};
+        // The eye is view space's origin; parallel rays come along its z axis.
+        mesh.eye = glm::inverse(linear) * (view.orthographic ? glm::dvec3(0, 0, 1) : -pivot);
+        cullView_.instances.push_back(mesh);
+    }
+}
+
+void GpuScene::setView(const SceneAt& scene, const View& view) {
+    if (!has(needs_, SceneData::positions)) return;
+    if (isCullable_) placeMeshes(scene, view);
+    const auto put = [&](gl::Buffer& buffer, const std::vector<std::byte>& data, const char* label) {
+        if (!buffer || buffer.size() != data.size())
+            buffer = gl::Buffer(data, label);
+        else
+            buffer.write(data);
+    };
+    put(instances_, instanceBytes(scene, view), "instances");
+    instancesView_ = gl::BufferView(instances_, gl::Element::uint4, "instances");
+    if (has(needs_, SceneData::lights)) put(lights_, lightBytes(scene, view), "lights");
+}
+
+void GpuScene::bind() const {
+    if (!has(needs_, SceneData::positions)) return;
+    positionsView_.bind(positionsUnit);
+    trianglesView_.bind(trianglesUnit);
+    wordsView_.bind(wordsUnit);
+    instancesView_.bind(instancesUnit);
+    if (normalsView_) normalsView_.bind(normalsUnit);
+    if (uvsView_) uvsView_.bind(uvsUnit);
+    if (triangleNormalsView_) triangleNormalsView_.bind(triangleNormalsUnit);
+    if (triangleUvsView_) triangleUvsView_.bind(triangleUvsUnit);
+    if (materialsView_) materialsView_.bind(materialsUnit);
+    if (lights_) lights_.bindUniform(kLightsBinding);
+    if (atlas_.texture()) atlas_.texture().bindSampler(atlasUnit);
+}
+
+void GpuScene::draw() const {
+    vertexArray_.bind();
+    gl::drawElements(commands_, static_cast<int>(shown_.size()));
+}
+
+void GpuScene::drawSeen(const FarthestDepths* farthest) {
+    const gl::Mapping positions(positions_.buffer()), indices(triangles_.buffer());
+    const TriangleSource source{
+        reinterpret_cast<const glm::vec3*>(positions.bytes()), reinterpret_cast<const std::uint32_t*>(indices.bytes())};
+    if (!farthest) parts_ = partsOf(cullView_);
+    // Some at a time, so that the renderer's threads draw them while this one sets up the next and others choose those
+    // after that.
+    constexpr std::size_t kCorners = 3 * 20'000;
+    std::vector<std::uint32_t> corners;
+    std::vector<gl::DrawCommand> commands;
+    const auto drawThem = [&] {
+        if (corners.empty()) return;
+        const gl::Buffer elements(bytesOf(corners), "seen triangles"), calls(bytesOf(commands), "draw commands");
+        const gl::VertexArray array(inputs_, elements, "seen triangles");
+        array.bind();
+        gl::drawElements(calls, static_cast<int>(commands.size()));
+        gl::flush();
+        corners.clear();
+        commands.clear();
+    };
+    inOrder(
+        parts_.size(),
+        [&](std::size_t i) {
+            if (farthest)
+                chooseBacks(cullView_, source, *farthest, parts_[i]);
+            else
+                chooseFacing(cullView_, source, parts_[i]);
+        },
+        [&](std::size_t i) {
+            auto& part = parts_[i];
+            if (part.indices.empty()) return;
+            const auto first = static_cast<std::int32_t>(shown_[part.instance]->place.firstVertex);
+            commands.push_back({static_cast<std::uint32_t>(part.indices.size()), 1,
+                static_cast<std::uint32_t>(corners.size()), first, static_cast<std::uint32_t>(part.instance)});
+            corners.insert(corners.end(), part.indices.begin(), part.indices.end());
+            part.indices = {};
+            if (corners.size() >= kCorners) drawThem();
+        });
+    drawThem();
+}
+
+}  // namespace limn

@@ -1,0 +1,92 @@
+// The scene as the GPU sees it: only the data that the plan reads is uploaded, and only what has changed.
+#pragma once
+
+#include "gl/device.h"
+#include "gl/objects.h"
+#include "gpu/arena.h"
+#include "gpu/atlas.h"
+#include "gpu/culling.h"
+#include "graph/graph.h"
+#include "picture/view.h"
+#include "stage/scene_at.h"
+
+#include <map>
+#include <span>
+#include <vector>
+
+namespace limn {
+
+class GpuScene {
+public:
+    /// `isSoftware`: of scenes with many triangles, only what can be seen need be drawn.
+    GpuScene(const gl::Limits& limits, bool isSoftware);
+
+    /// What will be read of the scenes to come, and how many line records they have. What is there for other needs is
+    /// given up.
+    void require(SceneData needs, std::size_t lineRecords);
+    bool holds(const ContentKey& mesh) const { return slots_.contains(mesh); }
+
+    /// Brings what differs from the last scene. `meshOf`: the key of each instance's mesh; those that are not held must
+    /// be in `made`, which may be released afterwards. Reads the textures' files when the plan needs them. Throws Error
+    /// where the device cannot take the scene.
+    void update(const SceneAt& scene, std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
+
+    /// Recomputes what depends on the camera: instance transforms in double precision, lights.
+    void setView(const SceneAt& scene, const View& view);
+
+    void bind() const;
+    void draw() const;  ///< every instance, in scene order
+
+    /// Can parts be drawn?
+    bool isCullable() const { return isCullable_; }
+    /// What can be seen in the last view's region: triangles that face the camera, or after that, with `farthest`,
+    /// those that do not (gpu/culling.h).
+    void drawSeen(const FarthestDepths* farthest);
+
+private:
+    struct MeshPlace {
+        std::uint32_t firstVertex, firstNormal, firstUv, firstTriangle, triangleCount, materialWords, partWords,
+            colorWords;
+        glm::dvec3 pivot;
+    };
+    struct Slot {
+        MeshPlace place;
+        ArenaPiece positions, triangles, normals, triangleNormals, uvs, triangleUvs;
+        std::vector<ArenaPiece> words;
+        std::vector<Cluster> clusters;
+    };
+
+    std::uint32_t putWords(Slot& slot, const std::vector<std::uint32_t>& values);
+    void putMesh(const ContentKey& key, const TriMesh& mesh);
+    void dropMesh(const Slot& slot);
+    void putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
+    /// What objects and materials say of their lines, and which materials each instance shows.
+    void putTables(const SceneAt& scene);
+    void putCommands();
+    /// Lets shaders and vertex pipelines see buffers that are new.
+    void connect();
+    void placeMeshes(const SceneAt& scene, const View& view);
+    std::vector<std::byte> instanceBytes(const SceneAt& scene, const View& view) const;
+
+    gl::Limits limits_;
+    bool isSoftware_, isReady_ = false, isCullable_ = false;
+    SceneData needs_ = SceneData::none;
+    std::map<ContentKey, Slot> slots_;
+    std::vector<const Slot*> shown_;  ///< of each instance
+    Arena positions_, triangles_, normals_, triangleNormals_, uvs_, triangleUvs_, words_;
+    ArenaPiece records_, tables_;                             ///< of words_: line records at its begin, material tables
+    std::vector<std::uint32_t> tableWords_, materialTables_;  ///< what stands in both; where each instance's begins
+    std::vector<int> generations_;                            ///< of the arenas that the views below show
+    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_;
+    std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_;
+    gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,
+        wordsView_, instancesView_, materialsView_;
+    TextureAtlas atlas_;
+    gl::VertexArray vertexArray_;
+    std::vector<gl::VertexInput> inputs_;
+
+    CullView cullView_;
+    std::vector<SeenPart> parts_;
+};
+
+}  // namespace limn

@@ -1,0 +1,103 @@
+#include "gpu/lights.h"
+
+#include "stage/shadow_layout.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace limn {
+namespace {
+
+// std140, as in shaders/scene/lights.glsl.
+struct GpuLight {
+    glm::vec4 direction, position, color, cone, shadow;
+    glm::vec4 shadowPlace[6];
+    glm::mat4 shadowFromView[6];
+};
+static_assert(sizeof(GpuLight) == 560);
+
+/// Reversed-depth perspective over `fov` (full angle, radians), square.
+glm::dmat4 lightPerspective(double fov, double near) {
+    const double f = 1 / std::tan(fov / 2);
+    glm::dmat4 m(0);
+    m[0][0] = m[1][1] = f;
+    m[2][3] = -1;
+    m[3][2] = near;
+    return m;
+}
+
+/// A view along `forward`, with any up.
+glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& forward) {
+    const glm::dvec3 up = std::abs(forward.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    return glm::lookAt(position, position + forward, up);
+}
+
+constexpr glm::dvec3 kCubeFaces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+/// Clip space of the light's map from normalized view space.
+std::vector<glm::dmat4> shadowMatrices(const Light& light, const SceneInfo& scene, const View& view) {
+    // World directions and lengths, counted from the eye.
+    const glm::dmat4 relativeFromView(glm::transpose(view.viewFromRelative) / (view.unit * view.unit));
+    if (light.kind == LightKind::sun) {
+        // A sphere around the scene keeps the map's texels still while the camera moves.
+        const double radius = scene.diagonal() / 2;
+        const glm::dvec3 forward = glm::normalize(light.direction);
+        const glm::dmat4 lightView = lookAlong(scene.bounds.centre() - view.eye - forward * radius * 2.0, forward);
+        glm::dmat4 clip(1);
+        clip[0][0] = clip[1][1] = 1 / radius;
+        // Depths radius … 3·radius → 1 … 0.
+        clip[2][2] = 1 / (2 * radius);
+        clip[3][2] = 1.5;
+        return {clip * lightView * relativeFromView};
+    }
+    const double near = scene.diagonal() * 1e-4;
+    if (light.kind == LightKind::spot)
+        return {lightPerspective(glm::radians(light.angle), near)
+            * lookAlong(light.position - view.eye, glm::normalize(light.direction)) * relativeFromView};
+    std::vector<glm::dmat4> faces;
+    for (const auto& forward : kCubeFaces)
+        faces.push_back(lightPerspective(glm::radians(90.0), near) * lookAlong(light.position - view.eye, forward)
+            * relativeFromView);
+    return faces;
+}
+
+}  // namespace
+
+std::size_t lightSize() { return sizeof(GpuLight); }
+
+std::vector<std::byte> lightBytes(const SceneAt& scene, const View& view) {
+    std::vector<GpuLight> lights;
+    const ShadowLayout layout = shadowLayout(scene.lights);
+    for (const auto& light : scene.lights) {
+        GpuLight gpu{};
+        const glm::dvec3 towards =
+            light.kind == LightKind::point ? glm::dvec3(0) : -glm::normalize(view.viewFromRelative * light.direction);
+        gpu.direction = glm::vec4(glm::vec3(towards), static_cast<float>(light.kind));
+        gpu.position = glm::vec4(glm::vec3(view.toView(light.position)),
+            light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
+        gpu.color = glm::vec4(light.color.r, light.color.g, light.color.b, 0) * static_cast<float>(light.intensity);
+        const double half = glm::radians(light.angle) / 2;
+        // A hard edge is a very narrow one: smoothstep needs its ends apart.
+        gpu.cone = {std::cos(half), std::max(std::cos(half * (1 - light.blend)), std::cos(half) + 1e-6), 0, 0};
+        if (light.shadow.present) {
+            const double texelAtUnit = light.kind == LightKind::sun
+                ? scene.info.diagonal() * view.unit / light.shadow.resolution
+                : light.kind == LightKind::spot ? 2 * std::tan(half) / light.shadow.resolution
+                                                : 2.0 / light.shadow.resolution;
+            gpu.shadow = {texelAtUnit, light.shadow.softness, 0, 1};
+            for (const auto& map : layout.maps)
+                if (map.number / 8 == static_cast<int>(lights.size()))
+                    gpu.shadowPlace[map.number % 8] = glm::vec4(map.viewport);
+            const auto matrices = shadowMatrices(light, scene.info, view);
+            for (std::size_t m = 0; m < matrices.size(); ++m) gpu.shadowFromView[m] = matrices[m];
+        }
+        lights.push_back(gpu);
+    }
+    const auto bytes = std::as_bytes(std::span(lights));
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace limn

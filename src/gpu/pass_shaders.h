@@ -1,0 +1,25 @@
+// The shaders of a pass: its own source, and before it the declarations of what the pass declared. A shader can touch
+// nothing else.
+#pragma once
+
+#include "gl/objects.h"
+#include "gpu/shaders.h"
+#include "graph/graph.h"
+#include "picture/view.h"
+
+#include <vector>
+
+namespace limn {
+
+/// Invocations of a work group of compute passes, each way. Long rows: neighbours in a row are neighbours in memory.
+inline constexpr glm::ivec2 kWorkGroup(32, 8);
+
+/// Whether compute passes are drawn as one large triangle, or as squares where they have a mask, as is best on software
+/// renderers.
+enum class ComputeAs { shaders, drawings };
+
+/// `viewConstants`: the block `view`, see viewBlock(). Shaders of equal text do the same.
+std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& planned, const View& view,
+    const UniformBlock& viewConstants, ComputeAs computeAs, const ShaderLibrary& library);
+
+}  // namespace limn

@@ -1,0 +1,18 @@
+// Which frames a run draws.
+#pragma once
+
+#include "render/config.h"
+
+#include <string>
+#include <vector>
+
+namespace limn {
+
+/// "12", "1-100", "1-100x2", "1,5,9-12", "10-1", "-5--1". Throws Error (usage).
+std::vector<int> parseFrames(const std::string& text);
+
+/// The frames that were asked for; without a word all that config and scene declare, and of a still its only one.
+std::vector<int> framesOf(
+    const RenderConfig& config, const std::string& asked, const std::optional<FrameRange>& declared);
+
+}  // namespace limn

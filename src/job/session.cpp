@@ -1,0 +1,75 @@
+#include "job/session.h"
+
+#include <utility>
+
+namespace limn {
+
+Session::Session(SessionOptions options) : options_(std::move(options)) {}
+
+Renderer& Session::renderer() {
+    if (!renderer_) renderer_ = std::make_unique<Renderer>(options_.device, options_.shaderFolder);
+    return *renderer_;
+}
+
+Session::Stamp Session::stampOf(const std::filesystem::path& file) {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(file, failed);
+    if (failed) return std::nullopt;
+    const auto time = std::filesystem::last_write_time(file, failed);
+    if (failed) return std::nullopt;
+    return std::pair(size, time);
+}
+
+void Session::loadAhead(const RenderConfig& config) {
+    auto& loading = scenes_[nameOf(config)];
+    if (loading.valid()) return;
+    const auto load = [scene = config.scene, subdivide = config.subdivide] {
+        return std::make_shared<const LoadedScene>(loadScene(scene, subdivide));
+    };
+    loading = std::async(std::launch::async, load).share();
+}
+
+void Session::makeAhead(const RenderConfig& config, std::optional<int> frame) {
+    loadAhead(config);
+    meshes_ = std::async(std::launch::async, [config, loading = scenes_.at(nameOf(config)), frame] {
+        const LoadedScene& loaded = *loading.get();
+        const int first = config.frames ? config.frames->first : loaded.scene.firstFrame();
+        return makeMeshesOf(config, loaded, frame.value_or(first));
+    });
+}
+
+const LoadedScene& Session::load(const RenderConfig& config) {
+    loadAhead(config);
+    const LoadedScene& loaded = *scenes_.at(nameOf(config)).get();
+    for (const auto& files : {loaded.files, loaded.meshes->files()})
+        for (const auto& file : files) stamps_.try_emplace(file, stampOf(file));
+    return loaded;
+}
+
+void Session::forget(const RenderConfig& config) {
+    scenes_.erase(nameOf(config));
+    meshes_ = {};
+    if (renderer_) renderer_->await({});
+    if (scenes_.empty()) stamps_.clear();
+}
+
+std::vector<std::filesystem::path> Session::changedFiles() const {
+    std::vector<std::filesystem::path> changed;
+    for (const auto& [file, stamp] : stamps_)
+        if (stampOf(file) != stamp) changed.push_back(file);
+    return changed;
+}
+
+RenderedFrame Session::draw(const RenderConfig& config, int frame, const RenderOptions& options) {
+    Renderer& drawing = renderer();
+    const LoadedScene& loaded = load(config);
+    if (meshes_.valid()) drawing.await(std::move(meshes_));
+    return drawing.render(config, loaded, frame, options);
+}
+
+PlanReport Session::plan(const RenderConfig& config, int frame) {
+    constexpr int kAnySize = 16384;
+    return reportPlan(config, load(config), frame, renderer_ ? renderer_->largestTexture() : kAnySize);
+}
+
+}  // namespace limn

@@ -1,0 +1,62 @@
+// Scenes and a device, kept from one picture to the next: what render, plan and study are made with.
+#pragma once
+
+#include "render/renderer.h"
+#include "render/report.h"
+
+#include <filesystem>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limn {
+
+struct SessionOptions {
+    gl::DeviceOptions device;
+    std::filesystem::path shaderFolder;  ///< empty: the shaders built in
+};
+
+/// Belongs to the thread that made it; loading goes on beside it.
+class Session {
+public:
+    explicit Session(SessionOptions options = {});
+
+    /// Begins to load the scene of a config, beside what goes on here.
+    void loadAhead(const RenderConfig& config);
+    /// The same, and goes on to make the meshes of a frame (nullopt: the first declared one) for the next draw().
+    void makeAhead(const RenderConfig& config, std::optional<int> frame);
+    /// The scene of a config; loads it unless that has been done. Throws what loading throws.
+    const LoadedScene& load(const RenderConfig& config);
+    /// Forgets the scene of a config, and with it what it takes in memory.
+    void forget(const RenderConfig& config);
+    /// Of all files that the loaded scenes and their meshes came from, those that are not any more what they were.
+    std::vector<std::filesystem::path> changedFiles() const;
+
+    RenderedFrame draw(const RenderConfig& config, int frame, const RenderOptions& options = {});
+    /// Without a device, unless one has been started.
+    PlanReport plan(const RenderConfig& config, int frame);
+
+    /// Starts the device, unless that has been done.
+    Renderer& renderer();
+
+private:
+    using SceneName = std::pair<std::string, std::optional<int>>;  ///< file, and level of --subdivide
+    static SceneName nameOf(const RenderConfig& config) { return {config.scene.string(), config.subdivide}; }
+    using Loading = std::shared_future<std::shared_ptr<const LoadedScene>>;
+
+    /// Size and time of a file; nullopt where it is gone.
+    using Stamp = std::optional<std::pair<std::uintmax_t, std::filesystem::file_time_type>>;
+    static Stamp stampOf(const std::filesystem::path& file);
+
+    SessionOptions options_;
+    std::unique_ptr<Renderer> renderer_;
+    std::map<SceneName, Loading> scenes_;
+    std::map<std::filesystem::path, Stamp> stamps_;  ///< of the files of scenes_, when they were read
+    std::future<MadeMeshes> meshes_;                 ///< under way for the next draw()
+};
+
+}  // namespace limn

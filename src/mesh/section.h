@@ -1,0 +1,35 @@
+// Meshes cut open by planes: what lies beyond is taken away, and solids show filled faces where they were cut.
+#pragma once
+
+#include "mesh/tri_mesh.h"
+
+namespace limn {
+
+/// A plane in the space of a mesh's positions, that is, counted from its pivot.
+struct CutPlane {
+    glm::dvec3 gradient{0, 0, 1};  ///< height(p) = dot(gradient, p) + offset; what is above 0 is cut away
+    double offset = 0;
+    std::uint32_t material = 0;  ///< of the cut faces, as in TriMesh::triangleMaterial
+    std::uint32_t part = 0;      ///< of the cut faces, as in TriMesh::trianglePart
+
+    double height(const glm::vec3& p) const { return glm::dot(gradient, glm::dvec3(p)) + offset; }
+};
+
+/// Does the plane take anything of the mesh away?
+bool isCut(const TriMesh& mesh, const CutPlane& plane);
+
+struct CutMesh {
+    TriMesh mesh;  ///< attributes and indices as the mesh had them; not numbered by last vertex
+    std::size_t openOutlines =
+        0;  ///< pieces of outline that do not close: surfaces without thickness, which have no cut face
+};
+
+/// Cuts. New vertices on an edge are the same from both of its sides, to the bit. Cut faces are filled where the
+/// outlines wind around them at all, so that solids standing in one another are filled once.
+CutMesh cutMesh(const TriMesh& mesh, const CutPlane& plane, const MeshNeeds& needs);
+
+/// Triangles that fill outlines in a plane with the given normal: nonzero winding. Crossing outlines add points.
+std::vector<std::uint32_t> triangulateOutlines(
+    std::vector<glm::dvec3>& points, const std::vector<std::vector<std::uint32_t>>& outlines, const glm::dvec3& normal);
+
+}  // namespace limn

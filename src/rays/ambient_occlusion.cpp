@@ -1,0 +1,197 @@
+#include "rays/ambient_occlusion.h"
+
+#include "picture/aov.h"
+#include "picture/directions.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace limn {
+namespace {
+
+constexpr int kPacket = 16;  // rays that Embree takes at once
+
+std::uint32_t mixBits(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+/// Cosine-weighted directions around z, for the 16 pixels of a 4×4 tile one after the other. Every block of 4×4 pixels,
+/// aligned or not, shares out one additive recurrence (by the plane's golden ratio, 2^32/1.3247… and its square), so
+/// that a filter over it sees 16·n evenly spread directions; samples go on where the last one ended, and the seed
+/// shifts them all.
+std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed) {
+    std::vector<glm::vec3> directions;
+    directions.reserve(16 * static_cast<std::size_t>(rays));
+    const std::uint32_t first = static_cast<std::uint32_t>(sample) * 16 * static_cast<std::uint32_t>(rays);
+    for (std::uint32_t i = first; i < first + 16 * static_cast<std::uint32_t>(rays); ++i) {
+        const double u = (i * 3242174889u + mixBits(seed * 2 + 1)) * 0x1p-32,
+                     angle = (i * 2447445414u + mixBits(seed * 2 + 2)) * (0x1p-31 * 3.14159265358979);
+        directions.emplace_back(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle), std::sqrt(1 - u));
+    }
+    return directions;
+}
+
+/// Which of the 16 a pixel is.
+std::size_t placeInTile(glm::ivec2 pixel) {
+    constexpr std::size_t kOrder[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return kOrder[pixel.y & 3][pixel.x & 3];
+}
+
+/// Two vectors that complete a unit normal to a basis (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT
+/// 2017).
+void complete(const glm::vec3& n, glm::vec3& a, glm::vec3& b) {
+    const float sign = std::copysign(1.0f, n.z), p = -1 / (sign + n.z), q = n.x * n.y * p;
+    a = {1 + sign * n.x * n.x * p, sign * q, -sign * n.x};
+    b = {q, sign + n.y * n.y * p, -n.y};
+}
+
+struct Origin {
+    glm::vec3 position, normal, tangent, bitangent;
+};
+
+/// What is hidden of each ray's way: V·w.
+class Packet {
+public:
+    Packet(RTCScene scene, const OcclusionQuery& query)
+        : scene_(scene), radius_(static_cast<float>(query.radius)), falloff_(query.falloff) {
+        rtcInitIntersectContext(&context_);
+    }
+
+    void add(const Origin& origin, const glm::vec3& local, float* result) {
+        const glm::vec3 d = origin.tangent * local.x + origin.bitangent * local.y + origin.normal * local.z;
+        RTCRay16& r = hit_.ray;
+        r.org_x[count_] = origin.position.x;
+        r.org_y[count_] = origin.position.y;
+        r.org_z[count_] = origin.position.z;
+        r.dir_x[count_] = d.x;
+        r.dir_y[count_] = d.y;
+        r.dir_z[count_] = d.z;
+        results_[count_] = result;
+        if (++count_ == kPacket) flush();
+    }
+
+    void flush() {
+        if (count_ == 0) return;
+        RTCRay16& r = hit_.ray;
+        alignas(64) int valid[kPacket];
+        for (int i = 0; i < kPacket; ++i) {
+            valid[i] = i < count_ ? -1 : 0;
+            r.tnear[i] = 0;
+            r.tfar[i] = radius_;
+            r.time[i] = 0;
+            r.mask[i] = ~0u;
+            r.id[i] = 0;
+            r.flags[i] = 0;
+            hit_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        if (falloff_ == Falloff::none)
+            rtcOccluded16(valid, scene_, &context_, &r);
+        else
+            rtcIntersect16(valid, scene_, &context_, &hit_);
+        for (int i = 0; i < count_; ++i) {
+            if (falloff_ == Falloff::none) {
+                *results_[i] = r.tfar[i] < 0 ? 1.0f : 0.0f;
+            } else {
+                const float share = r.tfar[i] / radius_;
+                *results_[i] = hit_.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                    ? 0.0f
+                    : 1 - (falloff_ == Falloff::linear ? share : share * share);
+            }
+        }
+        count_ = 0;
+    }
+
+private:
+    RTCScene scene_;
+    float radius_;
+    Falloff falloff_;
+    RTCIntersectContext context_;
+    alignas(64) RTCRayHit16 hit_{};
+    float* results_[kPacket]{};
+    int count_ = 0;
+};
+
+}  // namespace
+
+void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSurfaces& surfaces,
+    const OcclusionQuery& query, const PixelRect& part, std::span<float> visibility, std::span<float> error) {
+    const glm::dmat4 raysFromView = scene.raysFromView(view);
+    const glm::dmat3 rotation(raysFromView);
+    const int rays = query.rays;
+    // Enough groups for a spread, enough rays in each to be evenly spread themselves.
+    const int groups = rays >= 64 ? 16 : rays >= 16 ? 4 : 1;
+    const std::vector<glm::vec3> directions = spreadDirections(rays, view.sample, view.seed);
+    const auto number = [](int value) { return static_cast<std::size_t>(value); };
+    tbb::parallel_for(tbb::blocked_range<int>(part.origin.y, part.origin.y + part.size.y, 4),
+        [&](const tbb::blocked_range<int>& rows) {
+            Packet packet(scene.handle(), query);
+            std::vector<float> hidden(number(part.size.x) * number(rays));
+            for (int y = rows.begin(); y < rows.end(); ++y) {
+                const std::size_t row = number(y) * number(view.region.size.x) + number(part.origin.x);
+                for (int x = 0; x < part.size.x; ++x) {
+                    const std::size_t at = row + number(x);
+                    const float depth = surfaces.depth[at];
+                    if (depth == kBackgroundDepth) continue;
+                    const glm::ivec2 pixel = view.region.origin + glm::ivec2(part.origin.x + x, y);
+                    const glm::dvec2 ray = (glm::dvec2(pixel) + 0.5) * view.rayScale + view.rayOffset;
+                    const double z = static_cast<double>(depth);
+                    const glm::dvec3 position(raysFromView * glm::dvec4(view.orthographic ? ray : ray * z, -z, 1));
+                    Origin origin;
+                    origin.normal = glm::vec3(glm::normalize(rotation
+                        * glm::dvec3(decodeDirection(
+                            {surfaces.normalGeometric[2 * at], surfaces.normalGeometric[2 * at + 1]}))));
+                    complete(origin.normal, origin.tangent, origin.bitangent);
+                    // Coordinates are rounded by 2^-24 of their size, the depth they came from by as much of itself,
+                    // and the tree's own vertices once more: four times their sum.
+                    const double slack =
+                        (std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), 1.0}) * 2 + z)
+                        * 0x1p-22;
+                    origin.position = glm::vec3(position + glm::dvec3(origin.normal) * slack);
+                    const glm::vec3* local = &directions[placeInTile(pixel) * number(rays)];
+                    for (int i = 0; i < rays; ++i)
+                        packet.add(origin, local[i], &hidden[number(x) * number(rays) + number(i)]);
+                }
+                packet.flush();
+                for (int x = 0; x < part.size.x; ++x) {
+                    const std::size_t at = row + number(x);
+                    if (surfaces.depth[at] == kBackgroundDepth) {
+                        if (!visibility.empty()) visibility[at] = 1;
+                        if (!error.empty()) error[at] = 0;
+                        continue;
+                    }
+                    const std::span<const float> all(&hidden[number(x) * number(rays)], number(rays));
+                    double sum = 0;
+                    for (const float h : all) sum += static_cast<double>(h);
+                    const double mean = sum / rays;
+                    if (!visibility.empty()) visibility[at] = static_cast<float>(1 - mean);
+                    if (error.empty()) continue;
+                    double variance = 0;
+                    if (groups > 1) {
+                        const int size = rays / groups;
+                        for (int g = 0; g < groups; ++g) {
+                            double group = 0;
+                            for (int i = 0; i < size; ++i) group += static_cast<double>(all[number(g * size + i)]);
+                            variance += (group / size - mean) * (group / size - mean);
+                        }
+                        variance /= groups * (groups - 1);
+                    } else {
+                        // Laplace's rule keeps a few equal answers from claiming certainty.
+                        const double share = (sum + 1) / (rays + 2);
+                        variance = share * (1 - share) / rays;
+                    }
+                    error[at] = static_cast<float>(std::sqrt(variance));
+                }
+            }
+        });
+}
+
+}  // namespace limn

@@ -1,0 +1,29 @@
+// What effects may know about a scene at a frame.
+#pragma once
+
+#include "stage/scene_at.h"
+
+#include <span>
+
+namespace limn {
+
+/// Facts about the scene at a frame that an effect may build on.
+struct SceneFacts {
+    SceneInfo info;
+    std::span<const Light> lights;
+    std::span<const DrawInstance> instances;
+    std::span<const Material> materials;
+    bool textured = false;      ///< some drawn material has a texture
+    bool cutouts = false;       ///< some drawn material has holes
+    bool vertexColors = false;  ///< some drawn mesh has vertex colours, and a material that wants them
+    bool shiny = false;         ///< some drawn material has a highlight
+    bool coloredLight = false;  ///< some light is not grey
+    bool lineRecords = false;   ///< some object or material says something about its lines
+    bool sections = false;      ///< something is cut open
+    bool hatched = false;       ///< and its cut faces are hatched
+    int triangleBits = 0;       ///< of a number that names an instance and its triangle, where 32 bits can; else 0
+};
+
+SceneFacts sceneFacts(const SceneAt& scene);
+
+}  // namespace limn

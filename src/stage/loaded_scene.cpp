@@ -1,0 +1,195 @@
+#include "stage/loaded_scene.h"
+
+#include "base/file.h"
+#include "base/log.h"
+#include "formats/creases.h"
+#include "mesh/topology.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+namespace limn {
+namespace {
+
+/// Box of the vertices that faces use, transformed one by one: the box of a turned box would be too large.
+Bounds instanceBounds(const PolyMesh& mesh, const glm::dmat4& worldFromMesh) {
+    Bounds bounds;
+    const bool identity = worldFromMesh == glm::dmat4(1);
+    for (const auto v : mesh.cornerPosition)
+        bounds.add(identity ? mesh.positions[v] : glm::dvec3(worldFromMesh * glm::dvec4(mesh.positions[v], 1)));
+    return bounds;
+}
+
+/// Reads one mesh and what belongs to it.
+MeshFile readMesh(const MeshSource& source, int frame) {
+    const std::filesystem::path path = source.at(frame);
+    MeshFile mesh = meshFormat(path).read(path);
+    KeyBuilder key;
+    key.add(mesh.key.low).add(mesh.key.high);
+    if (!source.creases.empty()) {
+        readCreases(source.creases, mesh.poly);
+        mesh.files.push_back(source.creases);
+        key.add(MappedFile(source.creases).text());
+    }
+    const bool repairs = source.subdivision.present || mesh.poly.cornerNormal.empty();
+    if (repairs) repairTopology(mesh.poly, mesh.warnings);
+    mesh.key = key.add(repairs).key();
+    return mesh;
+}
+
+void warnOf(const MeshFile& mesh) {
+    for (const auto& warning : mesh.warnings)
+        log::warning("{}{}: {}{}", mesh.files.front().string(),
+            warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind,
+            warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
+}
+
+void addImage(ImageKeys& keys, const std::string& file) {
+    if (!file.empty() && !keys.contains(file)) keys[file] = contentKey(MappedFile(file).text());
+}
+
+}  // namespace
+
+struct MeshLibrary::State {
+    struct Entry {
+        int frame;  ///< of a mesh with a file for each; else 0
+        SharedMesh mesh;
+    };
+    std::vector<MeshSource> sources;
+    std::vector<bool> isDrawn;
+    std::mutex mutex;
+    std::vector<std::vector<Entry>> entries;  ///< of each source, the last used behind
+    ImageKeys images;
+
+    int frameOf(std::size_t source, int frame) const { return sources[source].perFrame ? frame : 0; }
+
+    SharedMesh find(std::size_t source, int frame) const {
+        for (const auto& entry : entries[source])
+            if (entry.frame == frameOf(source, frame)) return entry.mesh;
+        return nullptr;
+    }
+
+    /// Reads these meshes at a frame, in parallel. Nothing is kept should one of them fail.
+    void read(const std::vector<std::size_t>& wanted, int frame) {
+        std::vector<MeshFile> meshes(wanted.size());
+        std::vector<std::vector<Error>> failed(wanted.size());
+        tbb::parallel_for(std::size_t{0}, wanted.size(),
+            [&](std::size_t w) { collect(failed[w], [&] { meshes[w] = readMesh(sources[wanted[w]], frame); }); });
+        ErrorCollector errors;
+        for (const auto& list : failed)
+            for (const auto& error : list) errors.add(error);
+        errors.throwIfAny();
+        for (std::size_t w = 0; w < wanted.size(); ++w) {
+            warnOf(meshes[w]);
+            for (const auto& material : meshes[w].materials) {
+                addImage(images, material.texture);
+                addImage(images, material.cutout);
+            }
+            auto& kept = entries[wanted[w]];
+            constexpr std::size_t kMost = 2;
+            if (kept.size() == kMost) kept.erase(kept.begin());
+            kept.push_back({frameOf(wanted[w], frame), std::make_shared<const MeshFile>(std::move(meshes[w]))});
+        }
+    }
+};
+
+MeshLibrary::MeshLibrary(std::vector<MeshSource> sources, std::vector<bool> isDrawn)
+    : state_(std::make_unique<State>()) {
+    state_->entries.resize(sources.size());
+    state_->sources = std::move(sources);
+    state_->isDrawn = std::move(isDrawn);
+}
+
+MeshLibrary::~MeshLibrary() = default;
+
+std::vector<SharedMesh> MeshLibrary::at(int frame) const {
+    const std::lock_guard lock(state_->mutex);
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < state_->sources.size(); ++i)
+        if (state_->isDrawn[i] && !state_->find(i, frame)) missing.push_back(i);
+    state_->read(missing, frame);
+    std::vector<SharedMesh> meshes;
+    for (std::size_t i = 0; i < state_->sources.size(); ++i) meshes.push_back(state_->find(i, frame));
+    return meshes;
+}
+
+ImageKeys MeshLibrary::imageKeys() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->images;
+}
+
+std::vector<std::filesystem::path> MeshLibrary::files() const {
+    const std::lock_guard lock(state_->mutex);
+    std::set<std::filesystem::path> files;
+    for (const auto& entries : state_->entries)
+        for (const auto& entry : entries) files.insert(entry.mesh->files.begin(), entry.mesh->files.end());
+    for (const auto& [file, key] : state_->images) files.insert(file);
+    return {files.begin(), files.end()};
+}
+
+std::size_t meshIndex(const Scene& scene, const std::string& name) {
+    const auto isNamed = [&](const auto& mesh) { return mesh.name == name; };
+    return static_cast<std::size_t>(
+        std::find_if(scene.meshes.begin(), scene.meshes.end(), isNamed) - scene.meshes.begin());
+}
+
+std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh) {
+    const SubdivisionSettings& settings = source.subdivision;
+    if (!settings.present) return std::nullopt;
+    SubdivisionOptions options;
+    options.scheme = static_cast<SubdivisionScheme>(settings.scheme);
+    options.level = settings.level;
+    options.limit = settings.limit;
+    options = withTags(options, mesh.tags);
+    if (settings.boundary != BoundaryName::file)
+        options.boundary = static_cast<BoundaryRule>(static_cast<int>(settings.boundary) - 1);
+    if (settings.uvBoundary != UvBoundaryName::file)
+        options.uv = static_cast<UvRule>(static_cast<int>(settings.uvBoundary) - 1);
+    if (settings.creaseMethod != CreaseMethodName::file)
+        options.chaikin = settings.creaseMethod == CreaseMethodName::chaikin;
+    return options;
+}
+
+LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subdivide) {
+    LoadedScene loaded;
+    if (isMeshFile(path)) {
+        loaded.scene = sceneOfMesh(path);
+        if (subdivide) loaded.scene.meshes.front().subdivision = {.present = true, .level = *subdivide};
+    } else {
+        if (subdivide)
+            throw Error(ExitCode::usage, {path.string()},
+                "--subdivide is for mesh files; a scene says itself what is subdivided",
+                "write subdivision = { level = 2 } under its [[mesh]]");
+        SceneFile file = sceneFormat(path).read(path);
+        loaded.scene = std::move(file.scene);
+        loaded.files = std::move(file.files);
+    }
+    std::vector<bool> isDrawn(loaded.scene.meshes.size());
+    for (const auto& instance : loaded.scene.instances) isDrawn[meshIndex(loaded.scene, instance.base.mesh)] = true;
+    loaded.meshes = std::make_shared<const MeshLibrary>(loaded.scene.meshes, std::move(isDrawn));
+
+    const int first = loaded.scene.firstFrame();
+    const auto meshes = loaded.meshes->at(first);
+    for (const auto& instance : loaded.scene.instances) {
+        const Instance placed = instance.at(first);
+        loaded.bounds.add(instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, placed.transform()));
+    }
+
+    KeyBuilder key;
+    for (const auto& file : loaded.files) key.add(MappedFile(file).text());
+    if (subdivide) key.add(*subdivide);
+    for (const auto& material : loaded.scene.materials)
+        for (const auto& image : {material.base.texture, material.base.cutout}) addImage(loaded.images, image);
+    for (const auto& [file, image] : loaded.images) {
+        key.add(image.low).add(image.high);
+        loaded.files.emplace_back(file);
+    }
+    loaded.key = key.key();
+    return loaded;
+}
+
+}  // namespace limn

@@ -1,0 +1,45 @@
+// The triangles of a picture: which meshes it needs, under which keys, and how they are made.
+#pragma once
+
+#include "mesh/tri_mesh.h"
+#include "stage/scene_at.h"
+
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace limn {
+
+/// A mesh to be made: a file's polygons as triangles, subdivided and cut as the scene says.
+struct MeshOrder {
+    ContentKey key;                      ///< of everything that its triangles depend on
+    std::size_t mesh = 0;                ///< index into SceneAt::meshes
+    std::vector<std::size_t> instances;  ///< that show it: index into SceneAt::instances
+    bool isCut = false;                  ///< sections may reach its only instance
+    ContentKey whole;                    ///< where it may be cut: the key that it has if no section reaches it
+};
+
+struct MeshOrders {
+    std::vector<MeshOrder> orders;
+    std::map<ContentKey, MeshOrder> wholes;  ///< what orders to be cut are cut from; the orders themselves elsewhere
+    std::vector<std::size_t> orderOf;        ///< of each instance: index into orders
+    MeshNeeds needs;
+};
+
+/// Instances share meshes where they can: of a mesh whose edges are cut to look smooth to the camera, those that look
+/// about equally large to it. Sections that may reach an instance give it a mesh of its own.
+MeshOrders orderMeshes(
+    const LoadedScene& loaded, const SceneAt& scene, const FrameRequest& request, const MeshNeeds& needs);
+
+/// Meshes as they were made.
+struct MadeMeshes {
+    std::map<ContentKey, TriMesh> meshes;
+    std::map<ContentKey, ContentKey> shownAs;  ///< of orders that no section reached: the whole mesh's key
+    double milliseconds = 0;
+};
+
+/// Makes the ordered meshes for which `isWanted` says so, in parallel. Warns of outlines of sections that do not close.
+MadeMeshes makeMeshes(const LoadedScene& loaded, const SceneAt& scene, const FrameRequest& request,
+    const MeshOrders& orders, const std::function<bool(const MeshOrder&)>& isWanted);
+
+}  // namespace limn

@@ -1,0 +1,206 @@
+#include "stage/scene_at.h"
+
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace limn {
+namespace {
+
+/// Gives every material that an instance may show a number; 0 is the default.
+class MaterialTable {
+public:
+    MaterialTable(const Scene& scene, const std::vector<SharedMesh>& meshes, double frame) : meshes_(meshes) {
+        materials.push_back({.name = ""});
+        for (const auto& material : scene.materials) byName_[material.base.name] = add(material.at(frame));
+    }
+
+    std::uint32_t named(const std::string& name) const { return byName_.at(name); }
+
+    /// Of a mesh's own material: the scene's of that name, else the MTL's, else the default.
+    std::uint32_t ofMesh(std::size_t mesh, const std::string& name) {
+        if (const auto it = byName_.find(name); it != byName_.end()) return it->second;
+        const auto [it, isNew] = byMesh_.emplace(std::pair(mesh, name), 0);
+        if (isNew)
+            for (const auto& material : meshes_[mesh]->materials)
+                if (material.name == name) it->second = add(material);
+        // Colours of vertices are all the colour there is, where no material says more.
+        if (isNew && it->second == 0 && !meshes_[mesh]->poly.colors.empty())
+            it->second = add({.name = name, .color = {1, 1, 1}});
+        return it->second;
+    }
+
+    std::vector<Material> materials;
+
+private:
+    std::uint32_t add(Material material) {
+        materials.push_back(std::move(material));
+        return static_cast<std::uint32_t>(materials.size() - 1);
+    }
+
+    const std::vector<SharedMesh>& meshes_;
+    std::map<std::string, std::uint32_t> byName_;
+    std::map<std::pair<std::size_t, std::string>, std::uint32_t> byMesh_;
+};
+
+/// The number of what an object and its material say about lines; the object goes first.
+std::uint32_t lineRecord(SceneAt& scene, const Instance& object, const Material& material) {
+    const LineRecord both{object.lines && material.lines,
+        object.lineColor.given ? object.lineColor : material.lineColor,
+        object.creaseAngle > 0 ? object.creaseAngle : material.creaseAngle, material.isCut};
+    const auto known = std::find(scene.lineRecords.begin(), scene.lineRecords.end(), both);
+    if (known != scene.lineRecords.end()) return static_cast<std::uint32_t>(known - scene.lineRecords.begin());
+    if (scene.lineRecords.size() == kMostLineRecords)
+        throw Error(ExitCode::badData, {},
+            fmt::format("objects and materials give their lines more than {} different looks", kMostLineRecords - 1),
+            "let more of them share line_color and crease_angle");
+    scene.lineRecords.push_back(both);
+    return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
+}
+
+/// The sections that are asked for, and their materials.
+std::vector<std::uint32_t> resolveSections(
+    const Scene& scene, const FrameRequest& request, SceneAt& draw, std::vector<Material>& materials) {
+    std::vector<std::string> names;
+    for (const auto& section : scene.sections) names.push_back(section.base.name);
+    for (const auto& name : request.sections)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw Error(ExitCode::usage, {request.file},
+                fmt::format("there is no section '{}' in {}", name, scene.file),
+                names.empty() ? "add a [[section]] with that name to the scene" : nameRemedy(name, names));
+    std::vector<std::uint32_t> numbers;
+    for (const auto& keyed : scene.sections) {
+        if (!keyed.base.name.empty()
+            && std::find(request.sections.begin(), request.sections.end(), keyed.base.name) == request.sections.end())
+            continue;
+        const Section section = keyed.at(request.frame);
+        const double length = glm::length(section.normal);
+        if (!(length > 0))
+            throw Error(ExitCode::usage, {scene.file},
+                fmt::format("the normal of section '{}' has no length at frame {}", section.name, request.frame),
+                "keep its keys from pointing opposite ways");
+        draw.sections.push_back({section.point, section.normal / length});
+        numbers.push_back(static_cast<std::uint32_t>(materials.size()));
+        const auto pixels = [&](const PictureLength& width) {
+            return width.inPixels(request.imageSize.y, request.dpi);
+        };
+        materials.push_back({.name = "section " + section.name,
+            .color = section.fill,
+            .isCut = true,
+            .hatch = {pixels(section.hatch), pixels(section.hatchWidth), section.hatchAngle, section.hatchColor}});
+    }
+    return numbers;
+}
+
+/// How many triangles a mesh may become, at most. A face of n corners becomes n grids of 2^(level - 1) squares each
+/// way; one that meets itself is first cut into n - 2 triangles, of three such grids each. Rates of edges are bounded
+/// by the level.
+std::uint64_t mostTriangles(const MeshSource& source, const PolyMesh& poly) {
+    return std::uint64_t{poly.cornerPosition.size()}
+    << (source.subdivision.present ? 2 * source.subdivision.level + 1 : 0);
+}
+
+/// The instances, with the numbers of their objects, materials and line records.
+void placeInstances(
+    const Scene& scene, const std::vector<std::uint32_t>& cutMaterials, MaterialTable& materials, SceneAt& at) {
+    std::uint32_t nextObject = 1;
+    for (const auto& keyed : scene.instances) {
+        const Instance instance = keyed.at(at.frame);
+        const std::size_t mesh = meshIndex(scene, instance.mesh);
+        const PolyMesh& poly = at.meshes[mesh]->poly;
+        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name,
+            poly.partNames, {}, !poly.colors.empty(), mostTriangles(scene.meshes[mesh], poly)};
+        for (const auto& name : poly.materialNames)
+            placed.materials.push_back(
+                instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
+        placed.materials.insert(placed.materials.end(), cutMaterials.begin(), cutMaterials.end());
+        for (const auto material : placed.materials)
+            placed.lineRecords.push_back(lineRecord(at, instance, materials.materials[material]));
+        nextObject += static_cast<std::uint32_t>(poly.partNames.size())
+            + (cutMaterials.empty() ? 0 : 1);  // cut faces are an object of their own
+        at.instances.push_back(std::move(placed));
+    }
+}
+
+Light lightAt(const Keyed<Light>& keyed, const std::string& file, double frame) {
+    Light light = keyed.at(frame);
+    const double size =
+        std::max({std::abs(light.direction.x), std::abs(light.direction.y), std::abs(light.direction.z)});
+    if (light.kind != LightKind::point && !(size > 0))
+        throw Error(ExitCode::usage, {file},
+            fmt::format("the direction of light '{}' has no length at frame {}", light.name, frame),
+            "keep its keys from pointing opposite ways");
+    if (size > 0) light.direction = glm::normalize(light.direction / size);
+    return light;
+}
+
+/// The camera that a request names, before its sheet's scale.
+Camera chooseCamera(const LoadedScene& loaded, const FrameRequest& request) {
+    const auto& cameras = loaded.scene.cameras;
+    if (request.camera.empty())
+        return cameras.empty() ? framingCamera(sceneInfo(loaded), request.imageSize)
+                               : cameras.front().at(request.frame);
+    std::vector<std::string> names;
+    for (const auto& camera : cameras) names.push_back(camera.base.name);
+    const auto named = std::find(names.begin(), names.end(), request.camera);
+    if (named == names.end())
+        throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("there is no camera '{}'", request.camera),
+            nameRemedy(request.camera, names));
+    return cameras[static_cast<std::size_t>(named - names.begin())].at(request.frame);
+}
+
+}  // namespace
+
+SceneInfo sceneInfo(const LoadedScene& loaded) { return {loaded.bounds, loaded.scene.upVector()}; }
+
+Camera cameraAt(const LoadedScene& loaded, const FrameRequest& request) {
+    Camera camera = chooseCamera(loaded, request);
+    if (request.scale > 0) {
+        if (camera.orthographicHeight <= 0)
+            throw Error(ExitCode::usage, {loaded.scene.file},
+                fmt::format("camera '{}' cannot draw to scale: it sees in perspective", camera.name),
+                "give it orthographic_height (any), or leave sheet.scale out");
+        const double paperMetres = request.imageSize.y / request.dpi * 0.0254;
+        camera.orthographicHeight = paperMetres / request.scale / loaded.scene.metersPerUnit;
+    }
+    if (camera.position == camera.lookAt)
+        throw Error(ExitCode::usage, {loaded.scene.file},
+            fmt::format("camera '{}' looks at the point where it stands", camera.name),
+            "move look_at away from position");
+    return camera;
+}
+
+SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
+    const Scene& scene = loaded.scene;
+    SceneAt at;
+    at.frame = request.frame;
+    at.meshes = loaded.meshes->at(static_cast<int>(request.frame));
+    at.info = sceneInfo(loaded);
+    MaterialTable materials(scene, at.meshes, request.frame);
+    const auto cutMaterials = resolveSections(scene, request, at, materials.materials);
+    placeInstances(scene, cutMaterials, materials, at);
+    at.materials = std::move(materials.materials);
+    at.camera = cameraAt(loaded, request);
+    for (const auto& light : scene.lights) at.lights.push_back(lightAt(light, scene.file, request.frame));
+    if (at.lights.empty()) at.lights.push_back(defaultSun(at.camera, at.info));
+
+    ImageKeys images = loaded.meshes->imageKeys();
+    images.insert(loaded.images.begin(), loaded.images.end());
+    for (const auto& material : at.materials) {
+        at.materialKeys.push_back(materialKey(material, images));
+        at.textureKeys.push_back(textureKey(material, images));
+    }
+    for (const auto& light : at.lights) at.lightKeys.push_back(lightKey(light));
+    KeyBuilder key;
+    key.add(loaded.key.low).add(loaded.key.high);
+    for (const auto& mesh : at.meshes)
+        if (mesh) key.add(mesh->key.low).add(mesh->key.high);
+    for (const auto& one : at.materialKeys) key.add(one.low).add(one.high);
+    at.key = key.key();
+    return at;
+}
+
+}  // namespace limn

@@ -1,0 +1,26 @@
+// Where the shadow maps of all lights lie in the one texture that holds them.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <span>
+#include <vector>
+
+namespace limn {
+
+/// One map: its square, and a number, 8 · light + face.
+struct ShadowMap {
+    glm::ivec4 viewport{0};  ///< texels: origin and size
+    int number = 0;
+};
+
+/// One map for a sun or spot, six for a point light. Empty when no light casts a shadow.
+struct ShadowLayout {
+    glm::ivec2 size{0};
+    std::vector<ShadowMap> maps;
+};
+ShadowLayout shadowLayout(std::span<const Light> lights);
+
+}  // namespace limn
