@@ -1,6 +1,8 @@
-// How alike two pixels' surfaces are, for filters that must not mix what does not belong together. Include after lib/space.glsl.
+// How alike two pixels' surfaces are, for filters that must not mix what does not belong together. Include after
+// lib/space.glsl.
 
-// Distance of a tap's surface from a pixel's tangent plane, in widths of a pixel there: 0 on a plane at any tilt, large across an outline.
+// Distance of a tap's surface from a pixel's tangent plane, in widths of a pixel there: 0 on a plane at any tilt, large
+// across an outline.
 float offPlane(vec3 position, vec3 normal, float perFootprint, ivec2 tap, float tapDepth) {
     return abs(dot(viewPosition(tap, tapDepth) - position, normal)) * perFootprint;
 }

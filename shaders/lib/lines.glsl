@@ -1,7 +1,8 @@
 // Where lines run: between the centres of neighbouring pixels, at a place known to a fraction of a pixel.
 //
-// Each pixel says of its way to the pixel at its right (x) and of the way to the one above it (y) whether a line crosses it, where, and what
-// line it is. Four pixels whose centres form a square make a cell; crossings on the sides of a cell are joined into pieces of line.
+// Each pixel says of its way to the pixel at its right (x) and of the way to the one above it (y) whether a line
+// crosses it, where, and what line it is. Four pixels whose centres form a square make a cell; crossings on the sides
+// of a cell are joined into pieces of line.
 
 // What a technique finds out first, per pixel: five bits for the way to the right, five for the way up.
 struct Side {
@@ -28,11 +29,13 @@ struct Crossing {
     bool ownedByOther;  // the line bounds the surface seen in the neighbour, not the one seen here
 };
 
-const uint NO_SOURCE = 0u, SILHOUETTE = 1u, CREASE = 2u, OBJECT = 3u, MATERIAL = 4u, SECTION = 5u;
+// Passes that include this define the numbers of sources, from 1: src/lines/sources.h.
+const uint NO_SOURCE = 0u;
 
 uint encodeCrossing(Crossing c) {
     if (c.source == NO_SOURCE) return 0u;
-    return uint(clamp(c.place, 0.0, 1.0) * 255.0 + 0.5) | (c.source << 8) | (c.record << 11) | (uint(c.thickness * 63.0 + 0.5) << 19) | (uint(c.strength * 63.0 + 0.5) << 25) | (uint(c.ownedByOther) << 31);
+    return uint(clamp(c.place, 0.0, 1.0) * 255.0 + 0.5) | (c.source << 8) | (c.record << 11)
+        | (uint(c.thickness * 63.0 + 0.5) << 19) | (uint(c.strength * 63.0 + 0.5) << 25) | (uint(c.ownedByOther) << 31);
 }
 
 uint sourceOf(uint code) { return (code >> 8) & 7u; }
@@ -45,14 +48,16 @@ bool ownedByOther(uint code) { return (code >> 31) != 0u; }
 // A straight piece of line across a cell, in the cell's square of 1×1.
 struct Piece {
     vec2 from, to;
-    uint code;          // of the crossing that it begins at
-    bool ownerIsLeft;   // what the line bounds lies at its left, seen along it
+    uint code;         // of the crossing that it begins at
+    bool ownerIsLeft;  // what the line bounds lies at its left, seen along it
 };
 
-// x: its ends, 8 bits each; never 0, for the ends lie on different sides, or one in the middle. y: its crossing's code, the owner's bit made over.
+// x: its ends, 8 bits each; never 0, for the ends lie on different sides, or one in the middle. y: its crossing's code,
+// the owner's bit made over.
 uvec2 encodePiece(Piece p) {
     uvec4 ends = uvec4(clamp(vec4(p.from, p.to), 0.0, 1.0) * 255.0 + 0.5);
-    return uvec2(ends.x | (ends.y << 8) | (ends.z << 16) | (ends.w << 24), (p.code & 0x7fffffffu) | (uint(p.ownerIsLeft) << 31));
+    return uvec2(
+        ends.x | (ends.y << 8) | (ends.z << 16) | (ends.w << 24), (p.code & 0x7fffffffu) | (uint(p.ownerIsLeft) << 31));
 }
 
 // Where a crossing says its place, a piece, which knows its ends, says whether its cell has a second one.

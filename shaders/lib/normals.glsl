@@ -1,5 +1,5 @@
-// Unit vectors in two numbers: the octahedral map (Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010). Two floats keep a
-// direction to about 1e-7, the six axis directions exactly.
+// Unit vectors in two numbers: the octahedral map (Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010). Two
+// floats keep a direction to about 1e-7, the six axis directions exactly.
 
 // Outside the map's square: no surface, no normal.
 const vec2 NO_NORMAL = vec2(2.0, 0.0);

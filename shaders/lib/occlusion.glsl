@@ -1,4 +1,5 @@
-// What ambient occlusion means in every technique: an occluder counts up to the radius, and less the farther it is (rays/falloff.h).
+// What ambient occlusion means in every technique: an occluder counts up to the radius, and less the farther it is
+// (rays/falloff.h).
 
 #define FALLOFF_NONE 0
 #define FALLOFF_LINEAR 1

@@ -4,8 +4,10 @@
 
 // A 32-bit mix in which every input bit flips every output bit about half the time.
 uint mixBits(uint x) {
-    x ^= x >> 16; x *= 0x7feb352du;
-    x ^= x >> 15; x *= 0x846ca68bu;
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
     return x ^ (x >> 16);
 }
 
@@ -15,8 +17,8 @@ float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 // Pixel of the whole picture (xy) and number of the sample within it (z).
 ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin / COARSENESS, view.sampleNumber); }
 
-// Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel: additive recurrences with the
-// generalized golden ratios of two and three dimensions (multiples of 2^32), shifted by the seed.
+// Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel: additive
+// recurrences with the generalized golden ratios of two and three dimensions (multiples of 2^32), shifted by the seed.
 vec2 evenlySpread(ivec2 pixel) {
     uvec3 s = uvec3(sampleOf(pixel));
     uint first = s.x * 3242174889u + s.y * 2447445414u + s.z * 2654435769u;

@@ -1,4 +1,5 @@
-// What the visibility buffer holds: which instance is seen, counted from 1, and which of its triangles; 0 where nothing is.
+// What the visibility buffer holds: which instance is seen, counted from 1, and which of its triangles; 0 where nothing
+// is.
 //
 // TRIANGLE_BITS: both fit into one number, whose lower bits are the triangle's.
 

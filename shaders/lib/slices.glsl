@@ -1,16 +1,20 @@
-// Slices through the hemisphere over a surface point: planes that contain the line of sight. What lies in such a plane lies on one straight
-// line of the picture, so that a slice's horizon is found by marching along that line.
+// Slices through the hemisphere over a surface point: planes that contain the line of sight. What lies in such a plane
+// lies on one straight line of the picture, so that a slice's horizon is found by marching along that line.
 //
-// Angles in a slice are counted from the direction to the eye, positive on the side of `across`. A slice sees the cosine-weighted hemisphere
-// as the integral of cos(angle − normal's angle)·|sin angle| over its open angles, times the length of the normal's projection into it
-// (Jiménez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
+// Angles in a slice are counted from the direction to the eye, positive on the side of `across`. A slice sees the
+// cosine-weighted hemisphere as the integral of cos(angle − normal's angle)·|sin angle| over its open angles, times the
+// length of the normal's projection into it (Jiménez et al., "Practical Real-Time Strategies for Accurate Indirect
+// Occlusion", 2016).
 //
 // Include after lib/space.glsl.
 
 const float HALF_PI = 1.570796327;
 
-// acos of 0 … 1, to 7e-5: software renderers take ten times as long over the real one (Lagarde 2014, after Abramowitz & Stegun 4.4.45).
-float acosPositive(float x) { return sqrt(max(1.0 - x, 0.0)) * (1.5707963 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x))); }
+// acos of 0 … 1, to 7e-5: software renderers take ten times as long over the real one (Lagarde 2014, after Abramowitz &
+// Stegun 4.4.45).
+float acosPositive(float x) {
+    return sqrt(max(1.0 - x, 0.0)) * (1.5707963 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
+}
 
 float asinSigned(float x) {
     float a = HALF_PI - acosPositive(abs(x));
@@ -18,7 +22,9 @@ float asinSigned(float x) {
 }
 
 // Directions across the line of sight.
-struct SightFrame { vec3 toEye, right, up; };
+struct SightFrame {
+    vec3 toEye, right, up;
+};
 
 SightFrame sightFrame(vec3 position) {
     vec3 toEye = towardsEye(position);
@@ -28,11 +34,12 @@ SightFrame sightFrame(vec3 position) {
 }
 
 struct Slice {
-    vec2 onScreen;      // how far the image of the point moves, in pixels, when the point moves by one normalized unit `across`
-    vec3 tangent;       // in the slice, along the surface, on the side of `across`
-    vec3 upward;        // the normal over its projection's length: measures heights in the slice
-    float weight;       // length of the normal's projection into the slice
-    float sinN, cosN, angleN;   // of the normal's projection
+    vec2 onScreen;  // how far the image of the point moves, in pixels, when the point moves by one normalized unit
+                    // `across`
+    vec3 tangent;   // in the slice, along the surface, on the side of `across`
+    vec3 upward;    // the normal over its projection's length: measures heights in the slice
+    float weight;   // length of the normal's projection into the slice
+    float sinN, cosN, angleN;  // of the normal's projection
 };
 
 // `turn`: cosine and sine of the slice's angle about the line of sight.
@@ -48,18 +55,22 @@ Slice sliceAt(SightFrame sight, vec3 position, vec3 normal, vec2 turn) {
     s.tangent = across * s.cosN - sight.toEye * s.sinN;
     s.upward = normal / s.weight;
     float depth = -position.z;
-    s.onScreen = (ORTHOGRAPHIC ? across.xy : (across.xy + position.xy * (across.z / depth)) / depth) / (view.rayScale * float(COARSENESS));
+    s.onScreen = (ORTHOGRAPHIC ? across.xy : (across.xy + position.xy * (across.z / depth)) / depth)
+        / (view.rayScale * float(COARSENESS));
     return s;
 }
 
-// Where another point lies in the slice: x along the surface, y above it. Exact for points of the slice. Taps stand on pixel centres beside
-// the slice's line; their height above the surface is kept as it is, so that a plane stays flat at every tilt.
+// Where another point lies in the slice: x along the surface, y above it. Exact for points of the slice. Taps stand on
+// pixel centres beside the slice's line; their height above the surface is kept as it is, so that a plane stays flat at
+// every tilt.
 vec2 inSlice(Slice s, vec3 offset) { return vec2(dot(offset, s.tangent), dot(offset, s.upward)); }
 
-// Visible part of one side of a slice (side: 1 or -1), from the line of sight to a horizon whose cosine to the normal's projection is `rise`.
+// Visible part of one side of a slice (side: 1 or -1), from the line of sight to a horizon whose cosine to the normal's
+// projection is `rise`.
 float openArc(Slice s, float side, float rise) {
     float sinN = s.sinN * side, away = acosPositive(rise), sinAway = sqrt(max(1.0 - rise * rise, 0.0));
-    // The horizon's angle is that of the normal plus `away`. What is seen lies in front of everything: an angle below 0 is rounding.
+    // The horizon's angle is that of the normal plus `away`. What is seen lies in front of everything: an angle below 0
+    // is rounding.
     float angle = max(s.angleN * side + away, 0.0);
     float sinAngle = max(sinN * rise + s.cosN * sinAway, 0.0), cosAngle = s.cosN * rise - sinN * sinAway;
     // The integral is (cos n + 2·angle·sin n − cos(2·angle − n)) / 4.
@@ -67,8 +78,8 @@ float openArc(Slice s, float side, float rise) {
     return 0.25 * (s.cosN + 2.0 * angle * sinN - (cosTwice * s.cosN + sinTwice * sinN));
 }
 
-// How far from the point the march along a slice may go, in pixels: to the edge of the radius' sphere as it is seen, and not beyond what was
-// drawn.
+// How far from the point the march along a slice may go, in pixels: to the edge of the radius' sphere as it is seen,
+// and not beyond what was drawn.
 float marchLength(Slice s, ivec2 pixel, vec2 direction, float speed, vec3 position, float radius) {
     float share = ORTHOGRAPHIC ? 0.0 : radius * inversesqrt(dot(position, position));
     // A sphere at a distance looks larger than a disk of its radius; near the eye it fills the picture.
@@ -82,5 +93,8 @@ float marchLength(Slice s, ivec2 pixel, vec2 direction, float speed, vec3 positi
 // How far along a march a step goes, 0 … 1: evenly spread, or with `growth` 1 by the square, denser near the point.
 float stepReach(float share, float growth) { return share * mix(1.0, share, growth); }
 
-// The pixel that a step of the march falls on. Steps are at least a pixel long, so that it is another pixel except at the border of what was drawn.
-ivec2 tapAt(ivec2 pixel, vec2 direction, float reach) { return clamp(pixelFrom(pixel, direction * reach), ivec2(0), (view.size - 1) / COARSENESS); }
+// The pixel that a step of the march falls on. Steps are at least a pixel long, so that it is another pixel except at
+// the border of what was drawn.
+ivec2 tapAt(ivec2 pixel, vec2 direction, float reach) {
+    return clamp(pixelFrom(pixel, direction * reach), ivec2(0), (view.size - 1) / COARSENESS);
+}

@@ -1,9 +1,10 @@
 // Vertices on a grid of 1/256 fine pixel, counted over the picture and its guard band.
 //
-// Every part of a picture then sees the same triangles to the bit, and the grid is the rasterizer's own, so that nothing is lost.
+// Every part of a picture then sees the same triangles to the bit, and the grid is the rasterizer's own, so that
+// nothing is lost.
 
 vec4 snapToGrid(vec4 clip) {
-    if (clip.w <= 0.0) return clip;    // behind the eye: the clipper will replace it
+    if (clip.w <= 0.0) return clip;  // behind the eye: the clipper will replace it
     vec2 size = vec2(view.canvasSize * view.raster);
     precise vec2 pixel = (clip.xy / clip.w * 0.5 + 0.5) * size;
     // Far outside, a float no longer resolves 1/256.

@@ -1,6 +1,7 @@
-// Textures of materials, all in one array of layers. Filtered by hand from single texels, so that the result is not the driver's choice.
+// Textures of materials, all in one array of layers. Filtered by hand from single texels, so that the result is not the
+// driver's choice.
 
-layout(binding = 15) uniform sampler2DArray atlas;   // sRGB: texels come out linear
+layout(binding = 15) uniform sampler2DArray atlas;  // sRGB: texels come out linear
 
 // Where a mip level lies: level 0 at the place, level 1 to its right, the others in a column under level 1.
 ivec2 levelOrigin(ivec2 size, int level) {
@@ -16,17 +17,21 @@ vec4 sampleLevel(Material material, vec2 uv, int level) {
     vec2 at = fract(uv) * vec2(size) - 0.5;
     vec2 cell = floor(at), f = at - cell;
     ivec2 lo = (ivec2(cell) + size) % size, hi = (ivec2(cell) + 1) % size;
-    vec4 a = texelFetch(atlas, ivec3(base + lo, material.layer), 0), b = texelFetch(atlas, ivec3(base + ivec2(hi.x, lo.y), material.layer), 0);
-    vec4 c = texelFetch(atlas, ivec3(base + ivec2(lo.x, hi.y), material.layer), 0), d = texelFetch(atlas, ivec3(base + hi, material.layer), 0);
+    vec4 a = texelFetch(atlas, ivec3(base + lo, material.layer), 0),
+         b = texelFetch(atlas, ivec3(base + ivec2(hi.x, lo.y), material.layer), 0);
+    vec4 c = texelFetch(atlas, ivec3(base + ivec2(lo.x, hi.y), material.layer), 0),
+         d = texelFetch(atlas, ivec3(base + hi, material.layer), 0);
     return mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
 }
 
 // Trilinear; uvX and uvY are how uv changes from one pixel to the next.
 vec4 sampleTexture(Material material, vec2 uv, vec2 uvX, vec2 uvY) {
     vec2 size = vec2(material.place.zw);
-    // The geometric mean of the footprint's sides: between the blur of the longer side and the aliasing of the shorter one.
+    // The geometric mean of the footprint's sides: between the blur of the longer side and the aliasing of the shorter
+    // one.
     float area = max(length(uvX * size), 1e-9) * max(length(uvY * size), 1e-9);
     float level = clamp(0.5 * log2(area), 0.0, float(max(material.levels - 1, 0)));
     int lower = int(level);
-    return mix(sampleLevel(material, uv, lower), sampleLevel(material, uv, min(lower + 1, max(material.levels - 1, 0))), level - float(lower));
+    return mix(sampleLevel(material, uv, lower), sampleLevel(material, uv, min(lower + 1, max(material.levels - 1, 0))),
+        level - float(lower));
 }

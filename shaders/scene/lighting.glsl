@@ -1,4 +1,5 @@
-// Light that reaches a surface: what shading techniques quantize, sum or attenuate. For passes that called readLighting().
+// Light that reaches a surface: what shading techniques quantize, sum or attenuate. For passes that called
+// readLighting().
 #include "scene/scene.glsl"
 #include "scene/lights.glsl"
 #include "lib/space.glsl"
@@ -7,18 +8,21 @@
 #include "lib/shadow.glsl"
 #endif
 
-struct Lighting { vec3 diffuse, highlight; };
+struct Lighting {
+    vec3 diffuse, highlight;
+};
 
-// Diffuse light max(0, N·L) and, with HIGHLIGHTS, Blinn-Phong highlights max(0, N·H)^shininess, times each light's colour, range, cone and shadow.
-// PLACED_LIGHTS: some light is a point or spot; SPOTS: some is a spot. `attenuation`:
-// linear and quadratic factors of 1/(1 + l·d + q·d²) for lights with a place, d in scene units. `eye`: unit, towards the viewer.
+// Diffuse light max(0, N·L) and, with HIGHLIGHTS, Blinn-Phong highlights max(0, N·H)^shininess, times each light's
+// colour, range, cone and shadow. PLACED_LIGHTS: some light is a point or spot; SPOTS: some is a spot. `attenuation`:
+// linear and quadratic factors of 1/(1 + l·d + q·d²) for lights with a place, d in scene units. `eye`: unit, towards
+// the viewer.
 Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shininess, vec2 attenuation) {
     Lighting sum = Lighting(vec3(0), vec3(0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 towards = lightDirection(i);
         float strength = 1.0;
 #ifdef PLACED_LIGHTS
-        if (lights[i].direction.w > 0.0) {   // point or spot
+        if (lights[i].direction.w > 0.0) {  // point or spot
             vec3 path = lights[i].position.xyz - position;
             float range = length(path);
             vec3 along = path / max(range, 1e-9);
@@ -26,14 +30,16 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
             strength = 1.0 / (1.0 + halves * halves);
             strength /= 1.0 + attenuation.x * d + attenuation.y * d * d;
 #ifdef SPOTS
-            if (lights[i].direction.w == 2.0) strength *= smoothstep(lights[i].cone.x, lights[i].cone.y, dot(along, towards));
+            if (lights[i].direction.w == 2.0)
+                strength *= smoothstep(lights[i].cone.x, lights[i].cone.y, dot(along, towards));
 #endif
             towards = along;
         }
 #endif
         float facing = dot(n, towards);
 #ifdef WITH_SHADOWS
-        if (lights[i].shadow.w > 0.0) strength *= shadowOf(lights[i], position, decodeNormal(load(normalGeometric, pixel).xy), towards);
+        if (lights[i].shadow.w > 0.0)
+            strength *= shadowOf(lights[i], position, decodeNormal(load(normalGeometric, pixel).xy), towards);
 #endif
         sum.diffuse += lightColor(i) * (strength * max(facing, 0.0));
 #ifdef HIGHLIGHTS

@@ -1,11 +1,13 @@
-"""Exports a Blender scene for limn: scene.toml, control cages as OBJ with subdivision tags, and a render config per camera.
+"""Exports a Blender scene for limn: scene.toml, control cages as OBJ with subdivision tags, and a render config per
+camera.
 
 As a script:   blender -b FILE.blend --python-exit-code 1 -P export.py -- OUT_DIR [--frames] [--dense]
 As an add-on:  install this file in Blender's preferences; then File > Export > limn (.toml)
 
-Blender 3.4 to 4.x, Python's standard library alone. Objects are exported as they would be rendered: with render visibility and the
-render levels of their modifiers. The last Subdivision Surface of an object is not applied but written down, so that limn can draw the
-limit surface of the cage. What has no place in limn is named in one summary at the end.
+Blender 3.4 to 4.x, Python's standard library alone. Objects are exported as they would be rendered: with render
+visibility and the render levels of their modifiers. The last Subdivision Surface of an object is not applied but
+written down, so that limn can draw the limit surface of the cage. What has no place in limn is named in one summary at
+the end.
 """
 
 import math
@@ -89,12 +91,14 @@ class LeftOut:
 
 
 class RenderSettings:
-    """Makes the dependency graph of a script, which follows viewport settings, show what would be rendered; undone on exit."""
+    """Makes the dependency graph of a script, which follows viewport settings, show what would be rendered; undone on
+    exit.
+    """
 
     def __init__(self, context, keep_cages):
         self.context, self.keep_cages = context, keep_cages
         self.undo = []
-        self.cages = {}          # object name -> its Subdivision Surface modifier that is written down instead of applied
+        self.cages = {}  # object name -> its Subdivision Surface modifier that is written down instead of applied
 
     def set(self, owner, attribute, value):
         old = getattr(owner, attribute)
@@ -116,7 +120,13 @@ class RenderSettings:
                 self.set(modifier, "show_viewport", modifier.show_render)
                 if modifier.type in {"SUBSURF", "MULTIRES"}:
                     self.set(modifier, "levels", modifier.render_levels)
-            if self.keep_cages and obj.type == "MESH" and enabled and enabled[-1].type == "SUBSURF" and enabled[-1].render_levels > 0:
+            if (
+                self.keep_cages
+                and obj.type == "MESH"
+                and enabled
+                and enabled[-1].type == "SUBSURF"
+                and enabled[-1].render_levels > 0
+            ):
                 self.cages[obj.name] = enabled[-1]
                 self.set(enabled[-1], "show_viewport", False)
         view_layer.update()
@@ -133,7 +143,7 @@ class RenderSettings:
 
 
 def edge_creases(mesh):
-    if "crease_edge" in mesh.attributes:                    # 4.0 on
+    if "crease_edge" in mesh.attributes:  # 4.0 on
         return [item.value for item in mesh.attributes["crease_edge"].data]
     if hasattr(mesh, "edges") and len(mesh.edges) and hasattr(mesh.edges[0], "crease"):
         return [edge.crease for edge in mesh.edges]
@@ -141,7 +151,7 @@ def edge_creases(mesh):
 
 
 def vertex_creases(mesh):
-    if "crease_vert" in mesh.attributes:                    # 4.0 on
+    if "crease_vert" in mesh.attributes:  # 4.0 on
         return [item.value for item in mesh.attributes["crease_vert"].data]
     if getattr(mesh, "vertex_creases", None) and len(mesh.vertex_creases):
         return [item.value for item in mesh.vertex_creases[0].data]
@@ -150,7 +160,7 @@ def vertex_creases(mesh):
 
 def corner_normals(mesh):
     """Normals per corner, as Blender shades them."""
-    if hasattr(mesh, "corner_normals"):                     # 4.1 on
+    if hasattr(mesh, "corner_normals"):  # 4.1 on
         return [tuple(item.vector) for item in mesh.corner_normals]
     mesh.calc_normals_split()
     return [tuple(loop.normal) for loop in mesh.loops]
@@ -168,7 +178,9 @@ def encoded(linear):
 
 
 def vertex_colors(mesh, name):
-    """One linear colour per vertex, and whether the corners of a vertex differed and were averaged; None without colours of that name."""
+    """One linear colour per vertex, and whether the corners of a vertex differed and were averaged; None without
+    colours of that name.
+    """
     layer = mesh.color_attributes.get(name) if name else mesh.color_attributes.active_color
     if layer is None or len(layer.data) == 0:
         return None, False
@@ -180,17 +192,23 @@ def vertex_colors(mesh, name):
         differ = differ or firsts.setdefault(vertex, color) != color
         sums[vertex] = tuple(a + b for a, b in zip(sums[vertex], color))
         counts[vertex] += 1
-    return [tuple(c / max(1, count) for c in total) if count else (1.0, 1.0, 1.0) for total, count in zip(sums, counts)], differ
+    return [
+        tuple(c / max(1, count) for c in total) if count else (1.0, 1.0, 1.0) for total, count in zip(sums, counts)
+    ], differ
 
 
 def same_but_for_rounding(shape, other, largest):
-    """Are coordinates equal to two units in the last place of the largest? Objects that Blender turned as it added them differ by that much."""
-    room = 2.0 ** -22 * largest
+    """Are coordinates equal to two units in the last place of the largest? Objects that Blender turned as it added them
+    differ by that much.
+    """
+    room = 2.0**-22 * largest
     return len(shape) == len(other) and all(abs(a - b) <= room for a, b in zip(shape, other))
 
 
 def obj_text(mesh, slots, subsurf, colors=None):
-    """One mesh in its own coordinates as OBJ. `subsurf`: the modifier to note as tags, or None to write normals instead. `colors`: of each vertex."""
+    """One mesh in its own coordinates as OBJ. `subsurf`: the modifier to note as tags, or None to write normals
+    instead. `colors`: of each vertex.
+    """
     lines = ["# limn exporter"]
     for vertex in mesh.vertices:
         values = list(vertex.co) + ([encoded(c) for c in colors[vertex.index]] if colors else [])
@@ -204,7 +222,8 @@ def obj_text(mesh, slots, subsurf, colors=None):
             uvs = [layer.data[corner].uv for corner in polygon.loop_indices]
             winding = sum((a[0] - b[0]) * (a[1] + b[1]) for a, b in zip(uvs[-1:] + uvs[:-1], uvs)) > 0
             for corner, uv in zip(polygon.loop_indices, uvs):
-                # Blender's seams: UVs are one where vertex, place and the direction of the face in the map are the same.
+                # Blender's seams: UVs are one where vertex, place and the direction of the face in the map are the
+                # same.
                 key = (mesh.loops[corner].vertex_index, uv[0], uv[1], winding)
                 if key not in known:
                     known[key] = len(known) + 1
@@ -242,7 +261,9 @@ def obj_text(mesh, slots, subsurf, colors=None):
         if subsurf.use_creases:
             for edge, crease in zip(mesh.edges, edge_creases(mesh)):
                 if crease > 0:
-                    lines.append("t crease 2/1/0 %d %d %s" % (edge.vertices[0], edge.vertices[1], number(sharpness(crease))))
+                    lines.append(
+                        "t crease 2/1/0 %d %d %s" % (edge.vertices[0], edge.vertices[1], number(sharpness(crease)))
+                    )
             for index, crease in enumerate(vertex_creases(mesh)):
                 if crease > 0:
                     lines.append("t corner 1/1/0 %d %s" % (index, number(sharpness(crease))))
@@ -251,7 +272,11 @@ def obj_text(mesh, slots, subsurf, colors=None):
 
 def subdivision_line(subsurf):
     scheme = "bilinear" if subsurf.subdivision_type == "SIMPLE" else "catmull-clark"
-    return "subdivision = { scheme = %s, level = %d, limit = %s }" % (quoted(scheme), subsurf.render_levels, "true" if subsurf.use_limit_surface else "false")
+    return "subdivision = { scheme = %s, level = %d, limit = %s }" % (
+        quoted(scheme),
+        subsurf.render_levels,
+        "true" if subsurf.use_limit_surface else "false",
+    )
 
 
 def principled(material):
@@ -331,7 +356,9 @@ def texture_path(image, folder, taken, left_out):
             name = os.path.splitext(name)[0] + ".png"
             target = os.path.join(folder, "textures", name)
             # A copy made by Blender would forget what was painted.
-            copy = bpy.data.images.new(image.name, image.size[0], image.size[1], alpha=True, float_buffer=image.is_float)
+            copy = bpy.data.images.new(
+                image.name, image.size[0], image.size[1], alpha=True, float_buffer=image.is_float
+            )
             copy.colorspace_settings.name = image.colorspace_settings.name
             copy.pixels = image.pixels[:]
             copy.filepath_raw, copy.file_format = target, "PNG"
@@ -350,13 +377,13 @@ def texture_path(image, folder, taken, left_out):
 
 def camera_numbers(obj, depsgraph, width, height):
     """Position, view direction, up and lens of a camera, as limn describes them."""
-    world = obj.matrix_world.copy()               # Blender changes its own with the frame
+    world = obj.matrix_world.copy()  # Blender changes its own with the frame
     position = world.translation
     forward = -(world.to_3x3().col[2]).normalized()
     up = world.to_3x3().col[1].normalized()
     p = obj.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=1.0, scale_y=1.0)
     longer = max(width, height)
-    plane = 2.0 / p[0][0]                         # width of the picture at unit depth, or in scene units
+    plane = 2.0 / p[0][0]  # width of the picture at unit depth, or in scene units
     pixel = plane / width
     result = {"position": position, "look_at": position + forward, "up": up}
     if obj.data.type == "ORTHO":
@@ -379,7 +406,9 @@ def keyed(values, frames):
     if not moves:
         return text(values[0])
     # Frames between two equal neighbours say nothing that linear interpolation does not.
-    kept = [i for i in range(len(values)) if i in (0, len(values) - 1) or not (values[i - 1] == values[i] == values[i + 1])]
+    kept = [
+        i for i in range(len(values)) if i in (0, len(values) - 1) or not (values[i - 1] == values[i] == values[i + 1])
+    ]
     keys = ", ".join("[%d, %s]" % (frames[i], text(values[i])) for i in kept)
     return '{ keys = [%s], interpolation = "linear" }' % keys
 
@@ -396,19 +425,23 @@ class Exporter:
     def __init__(self, context, folder, animated=False, dense=False):
         self.context, self.folder, self.animated, self.dense = context, folder, animated, dense
         self.left_out = LeftOut()
-        self.meshes = {}             # key -> what was written for it
-        self.by_look = {}            # (OBJ text without points, colours, subdivision) -> those that look so
+        self.meshes = {}  # key -> what was written for it
+        self.by_look = {}  # (OBJ text without points, colours, subdivision) -> those that look so
         self.taken, self.taken_textures = set(), set()
-        self.materials = {}          # Blender name -> lines
-        self.plain = set()           # names of those that take no colours of vertices
-        self.colored = False         # some mesh has them
+        self.materials = {}  # Blender name -> lines
+        self.plain = set()  # names of those that take no colours of vertices
+        self.colored = False  # some mesh has them
         self.counts = {"meshes": 0, "instances": 0, "cameras": 0, "lights": 0}
 
     def run(self):
         scene = self.context.scene
         os.makedirs(os.path.join(self.folder, "meshes"), exist_ok=True)
         # Blender may skip frames; declared frames are those that it would render.
-        frames = list(range(scene.frame_start, scene.frame_end + 1, max(1, scene.frame_step))) if self.animated else [scene.frame_current]
+        frames = (
+            list(range(scene.frame_start, scene.frame_end + 1, max(1, scene.frame_step)))
+            if self.animated
+            else [scene.frame_current]
+        )
         if self.animated and scene.frame_step > 1:
             self.left_out.add("frame step (every frame between is interpolated)", str(scene.frame_step))
         start = scene.frame_current
@@ -434,12 +467,18 @@ class Exporter:
             if not instance.show_self or (original.hide_render and not instance.is_instance):
                 continue
             if obj.type in GEOMETRY:
-                name = original.name if not instance.is_instance else "%s/%s" % (instance.parent.original.name, original.name)
+                name = (
+                    original.name
+                    if not instance.is_instance
+                    else "%s/%s" % (instance.parent.original.name, original.name)
+                )
                 seen[name] = seen.get(name, 0) + 1
                 key = name if seen[name] == 1 else "%s.%d" % (name, seen[name])
                 mesh = self.mesh_of(obj, cages, frame, frames)
                 if mesh:
-                    tracks.setdefault(key, {"mesh": mesh, "matrices": {}})["matrices"][frame] = instance.matrix_world.copy()
+                    tracks.setdefault(key, {"mesh": mesh, "matrices": {}})["matrices"][
+                        frame
+                    ] = instance.matrix_world.copy()
             elif obj.type == "CAMERA" and not instance.is_instance:
                 cameras.setdefault(original.name, {})[frame] = camera_numbers(obj, depsgraph, width, height)
                 if frame == frames[0] and obj.data.type == "PANO":
@@ -450,14 +489,20 @@ class Exporter:
                 if obj.data.type == "AREA":
                     self.left_out.add("area light", original.name)
                     continue
-                name = original.name if not instance.is_instance else "%s/%s" % (instance.parent.original.name, original.name)
+                name = (
+                    original.name
+                    if not instance.is_instance
+                    else "%s/%s" % (instance.parent.original.name, original.name)
+                )
                 lights.setdefault(name, {})[frame] = self.light_numbers(obj, instance.matrix_world.copy())
             elif obj.type not in {"EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "LIGHTPROBE"}:
                 self.left_out.add("object of a kind that has no surface", "%s (%s)" % (original.name, obj.type.lower()))
 
     def picture_size(self):
         render = self.context.scene.render
-        return max(1, render.resolution_x * render.resolution_percentage // 100), max(1, render.resolution_y * render.resolution_percentage // 100)
+        return max(1, render.resolution_x * render.resolution_percentage // 100), max(
+            1, render.resolution_y * render.resolution_percentage // 100
+        )
 
     @staticmethod
     def light_numbers(obj, world):
@@ -466,7 +511,7 @@ class Exporter:
         numbers["position"] = world.translation
         numbers["direction"] = -(world.to_3x3().col[2]).normalized()
         # Irradiance 1 on a white surface shows as 1/pi; limn's lights show it as 1.
-        numbers["intensity"] = light.energy / math.pi if light.type == "SUN" else light.energy / (4 * math.pi ** 2)
+        numbers["intensity"] = light.energy / math.pi if light.type == "SUN" else light.energy / (4 * math.pi**2)
         if light.type == "SPOT":
             numbers["angle"], numbers["blend"] = math.degrees(light.spot_size), light.spot_blend
         return numbers
@@ -475,14 +520,24 @@ class Exporter:
         """May the mesh change its shape over frames? Whether it does is seen when every frame has been written."""
         original = obj.original
         data = original.data
-        return bool(original.modifiers) or getattr(data, "shape_keys", None) is not None or getattr(data, "animation_data", None) is not None
+        return (
+            bool(original.modifiers)
+            or getattr(data, "shape_keys", None) is not None
+            or getattr(data, "animation_data", None) is not None
+        )
 
     def mesh_of(self, obj, cages, frame, frames):
-        """Writes the object's mesh unless that has been done; returns its name in the scene file, or None without faces."""
+        """Writes the object's mesh unless that has been done; returns its name in the scene file, or None without
+        faces.
+        """
         original = obj.original
         subsurf = cages.get(original.name)
         by_object = any(slot.link == "OBJECT" for slot in original.material_slots)
-        key = ("object", original.name) if original.modifiers or by_object or original.type != "MESH" else ("data", original.data.name)
+        key = (
+            ("object", original.name)
+            if original.modifiers or by_object or original.type != "MESH"
+            else ("data", original.data.name)
+        )
         moving = self.animated and len(frames) > 1 and self.deforms(obj)
         known = self.meshes.get(key)
         if known and (not moving or frame in known["frames"]):
@@ -497,24 +552,40 @@ class Exporter:
             wanted = {color_attribute(slot.material) for slot in original.material_slots} - {None}
             colors, differ = vertex_colors(mesh, sorted(wanted)[0]) if wanted else (None, False)
             if wanted and colors is None:
-                self.left_out.add("colour attribute that is not there or holds no colours (drawn white)", "%s (%s)" % (original.name, sorted(wanted)[0]))
+                self.left_out.add(
+                    "colour attribute that is not there or holds no colours (drawn white)",
+                    "%s (%s)" % (original.name, sorted(wanted)[0]),
+                )
             if len(wanted) > 1:
-                self.left_out.add("more than one colour attribute on a mesh", "%s (%s)" % (original.name, ", ".join(sorted(wanted)[1:])))
+                self.left_out.add(
+                    "more than one colour attribute on a mesh",
+                    "%s (%s)" % (original.name, ", ".join(sorted(wanted)[1:])),
+                )
             self.colored = self.colored or colors is not None
             if differ:
                 self.left_out.add("colours that differ between the faces at a vertex (averaged)", original.name)
             text = obj_text(mesh, slots, subsurf, colors)
             shape = [c for vertex in mesh.vertices for c in vertex.co]
-            look = ("\n".join(line for line in text.split("\n") if not line.startswith("v ")), tuple(colors or ()), subdivision_line(subsurf) if subsurf else "")
+            look = (
+                "\n".join(line for line in text.split("\n") if not line.startswith("v ")),
+                tuple(colors or ()),
+                subdivision_line(subsurf) if subsurf else "",
+            )
             if not known and not moving:
                 largest = max(map(abs, shape))
                 for other in self.by_look.get(look, []):
                     if same_but_for_rounding(shape, other["shape"], largest):
-                        self.meshes[key] = other   # the same under another name: once is enough
+                        self.meshes[key] = other  # the same under another name: once is enough
                         return other["name"]
             if not known:
                 name = file_name(original.name if key[0] == "object" else original.data.name, self.taken)
-                known = self.meshes[key] = {"name": name, "frames": {}, "subsurf": subsurf, "shape": None, "moves": False}
+                known = self.meshes[key] = {
+                    "name": name,
+                    "frames": {},
+                    "subsurf": subsurf,
+                    "shape": None,
+                    "moves": False,
+                }
                 self.counts["meshes"] += 1
                 self.note(original, mesh, subsurf)
             if known["shape"] is None:
@@ -536,7 +607,12 @@ class Exporter:
         if original.is_holdout:
             self.left_out.add("holdout", original.name)
         for modifier in original.modifiers:
-            if modifier.type == "SUBSURF" and modifier.show_render and modifier != subsurf and modifier.render_levels > 0:
+            if (
+                modifier.type == "SUBSURF"
+                and modifier.show_render
+                and modifier != subsurf
+                and modifier.render_levels > 0
+            ):
                 self.left_out.add("subdivision before other modifiers (written as polygons)", original.name)
         if any(getattr(edge, "use_freestyle_mark", False) for edge in mesh.edges):
             self.left_out.add("Freestyle mark", original.name)
@@ -548,7 +624,11 @@ class Exporter:
             return ""
         if material.name not in self.materials:
             color, image = base_color(material, self.left_out)
-            lines = ["[[material]]", "name = " + quoted(material.name), "color = " + vector([max(0.0, c) for c in color])]
+            lines = [
+                "[[material]]",
+                "name = " + quoted(material.name),
+                "color = " + vector([max(0.0, c) for c in color]),
+            ]
             path = None
             if image:
                 path = texture_path(image, self.folder, self.taken_textures, self.left_out)
@@ -556,7 +636,11 @@ class Exporter:
                     lines.append("texture = " + quoted(path))
             holes = cutout_image(material, self.left_out)
             if holes:
-                path = path if image == holes and path else texture_path(holes, self.folder, self.taken_textures, self.left_out)
+                path = (
+                    path
+                    if image == holes and path
+                    else texture_path(holes, self.folder, self.taken_textures, self.left_out)
+                )
                 if path:
                     lines.append("cutout = " + quoted(path))
             # Blender's own default is a transparent black: whoever wants black lines gives them some opacity.
@@ -569,10 +653,26 @@ class Exporter:
 
     # The files.
     def write(self, scene, frames, tracks, cameras, lights):
-        lines = ['# Written by limn\'s Blender exporter from %s.' % quoted(os.path.basename(bpy.data.filepath) or "an unsaved file"), "", 'up = "z"', ""]
-        lines += ["[units]", "meters_per_unit = " + number(scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.0), ""]
+        lines = [
+            "# Written by limn's Blender exporter from %s."
+            % quoted(os.path.basename(bpy.data.filepath) or "an unsaved file"),
+            "",
+            'up = "z"',
+            "",
+        ]
+        lines += [
+            "[units]",
+            "meters_per_unit = "
+            + number(scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.0),
+            "",
+        ]
         if self.animated:
-            lines += ["[animation]", 'frames = "%d-%d"' % (frames[0], frames[-1]), "fps = " + number(scene.render.fps / scene.render.fps_base), ""]
+            lines += [
+                "[animation]",
+                'frames = "%d-%d"' % (frames[0], frames[-1]),
+                "fps = " + number(scene.render.fps / scene.render.fps_base),
+                "",
+            ]
         done = set()
         for known in self.meshes.values():
             if known["name"] not in done:
@@ -623,16 +723,23 @@ class Exporter:
         self.counts["instances"] += 1
         if all(matrix == matrices[0] for matrix in matrices):
             if matrices[0] != Matrix.Identity(4):
-                lines.append("matrix = " + vector([matrices[0][row][column] for row in range(4) for column in range(4)]))
+                lines.append(
+                    "matrix = " + vector([matrices[0][row][column] for row in range(4) for column in range(4)])
+                )
             return lines + [""]
         parts = [matrix.decompose() for matrix in matrices]
         for matrix, (place, turn, size) in zip(matrices, parts):
             again = Matrix.LocRotScale(place, turn, size)
-            if any(abs(again[r][c] - matrix[r][c]) > 1e-4 * max(1.0, abs(matrix[r][c])) for r in range(3) for c in range(4)):
+            if any(
+                abs(again[r][c] - matrix[r][c]) > 1e-4 * max(1.0, abs(matrix[r][c])) for r in range(3) for c in range(4)
+            ):
                 self.left_out.add("shear of a moving object", name)
                 break
         lines.append("translate = " + keyed([tuple(p[0]) for p in parts], frames))
-        lines.append("rotate = " + keyed(unwrapped([tuple(math.degrees(a) for a in p[1].to_euler("XYZ")) for p in parts]), frames))
+        lines.append(
+            "rotate = "
+            + keyed(unwrapped([tuple(math.degrees(a) for a in p[1].to_euler("XYZ")) for p in parts]), frames)
+        )
         lines.append("scale = " + keyed([tuple(p[2]) for p in parts], frames))
         return lines + [""]
 
@@ -643,7 +750,11 @@ class Exporter:
         at = lambda frame: by_frame.get(frame, first)
         for key in ("position", "look_at", "up", "focal_length", "orthographic_height", "shift"):
             if key in first:
-                value = lambda frame: tuple(at(frame).get(key, first[key])) if hasattr(first[key], "__len__") else (at(frame).get(key, first[key]),)
+                value = (
+                    lambda frame: tuple(at(frame).get(key, first[key]))
+                    if hasattr(first[key], "__len__")
+                    else (at(frame).get(key, first[key]),)
+                )
                 lines.append("%s = %s" % (key, keyed([value(frame) for frame in frames], frames)))
         return lines + [""]
 
@@ -652,12 +763,16 @@ class Exporter:
         first = by_frame[min(by_frame)]
         at = lambda frame: by_frame.get(frame, first)
         lines = ["[[light]]", "name = " + quoted(name), "kind = " + quoted(first["kind"])]
-        keys = {"sun": ("direction", "color", "intensity"), "point": ("position", "color", "intensity"), "spot": ("position", "direction", "color", "intensity", "angle", "blend")}[first["kind"]]
+        keys = {
+            "sun": ("direction", "color", "intensity"),
+            "point": ("position", "color", "intensity"),
+            "spot": ("position", "direction", "color", "intensity", "angle", "blend"),
+        }[first["kind"]]
         for key in keys:
             value = lambda frame: tuple(at(frame)[key]) if hasattr(first[key], "__len__") else (at(frame)[key],)
             lines.append("%s = %s" % (key, keyed([value(frame) for frame in frames], frames)))
         if first["kind"] != "sun":
-            lines.append("range = 1")       # falls with the square of the distance, beyond a unit
+            lines.append("range = 1")  # falls with the square of the distance, beyond a unit
         return lines + [""]
 
     def write_config(self, scene, camera, name):
@@ -665,14 +780,32 @@ class Exporter:
         if render.pixel_aspect_x != render.pixel_aspect_y:
             self.left_out.add("pixels that are not square", "%g:%g" % (render.pixel_aspect_x, render.pixel_aspect_y))
         width, height = self.picture_size()
-        lines = ["# Renders %s. Start from here: every section may be changed or left out." % (quoted(camera) if camera else "the scene"), "", 'scene = "scene.toml"']
+        lines = [
+            "# Renders %s. Start from here: every section may be changed or left out."
+            % (quoted(camera) if camera else "the scene"),
+            "",
+            'scene = "scene.toml"',
+        ]
         if camera:
             lines.append("camera = " + quoted(camera))
         lines += ["", "[image]", "size = [%d, %d]" % (width, height), "samples = 8"]
         if render.film_transparent:
             lines.append('background = "transparent"')
-        lines += ["", "[shading]", 'technique = "toon"', "", "[ao]", 'technique = "toon_ssao"', 'filter = { technique = "gaussian" }', "", "[[edges]]", 'technique = "depth_normal"', "",
-                  "[output]", "path = " + quoted("%s%s.png" % (name, "_####" if self.animated else ""))]
+        lines += [
+            "",
+            "[shading]",
+            'technique = "toon"',
+            "",
+            "[ao]",
+            'technique = "toon_ssao"',
+            'filter = { technique = "gaussian" }',
+            "",
+            "[[edges]]",
+            'technique = "depth_normal"',
+            "",
+            "[output]",
+            "path = " + quoted("%s%s.png" % (name, "_####" if self.animated else "")),
+        ]
         with open(os.path.join(self.folder, name + ".toml"), "w", encoding="utf-8", newline="\n") as file:
             file.write("\n".join(lines) + "\n")
 
@@ -680,7 +813,13 @@ class Exporter:
 def export(context, folder, animated=False, dense=False):
     exporter = Exporter(context, folder, animated, dense)
     left_out = exporter.run()
-    print("limn: wrote %s: %s" % (os.path.join(folder, "scene.toml"), ", ".join("%d %s" % (count, what) for what, count in exporter.counts.items())))
+    print(
+        "limn: wrote %s: %s"
+        % (
+            os.path.join(folder, "scene.toml"),
+            ", ".join("%d %s" % (count, what) for what, count in exporter.counts.items()),
+        )
+    )
     for line in left_out.lines():
         print("limn: left out:" + line)
     return left_out
@@ -693,8 +832,12 @@ class EXPORT_OT_limn(bpy.types.Operator):
     bl_label = "Export limn scene"
 
     directory: bpy.props.StringProperty(subtype="DIR_PATH")
-    animated: bpy.props.BoolProperty(name="Animation", description="Write every frame, not just the current one", default=False)
-    dense: bpy.props.BoolProperty(name="Apply subdivision", description="Write dense polygons instead of cages", default=False)
+    animated: bpy.props.BoolProperty(
+        name="Animation", description="Write every frame, not just the current one", default=False
+    )
+    dense: bpy.props.BoolProperty(
+        name="Apply subdivision", description="Write dense polygons instead of cages", default=False
+    )
 
     def invoke(self, context, event):
         context.window_manager.fileselect_add(self)
@@ -731,6 +874,6 @@ def main(arguments):
 
 if __name__ == "__main__":
     if "--" in sys.argv:
-        main(sys.argv[sys.argv.index("--") + 1:])
+        main(sys.argv[sys.argv.index("--") + 1 :])
     else:
         register()

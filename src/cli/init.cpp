@@ -21,20 +21,8 @@ std::string tomlText(const std::string& text) {
     return result + "\"";
 }
 
-ExitCode run(const std::string& model, const std::string& folderText) {
-    const std::filesystem::path folder = folderText;
-    const LoadedScene loaded = loadScene(model);
-    const SceneAt scene = sceneAt(loaded, {.sections = {}});
-    const std::string name = std::filesystem::path(model).stem().string();
-    const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
-    for (const auto& path : {scenePath, configPath})
-        if (std::filesystem::exists(path))
-            throw Error(ExitCode::cannotCreate, {path.string()}, "exists already",
-                "choose another folder with --output, or move the file away");
-
-    std::error_code ignored;
-    const auto relative =
-        std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
+/// A commented scene of one mesh file.
+std::string sceneText(const SceneAt& scene, const std::string& name, const std::string& file) {
     std::string materials;
     for (const auto& material : scene.meshes.front()->poly.materialNames)
         if (!material.empty())
@@ -43,8 +31,8 @@ ExitCode run(const std::string& model, const std::string& folderText) {
                 "\"#d89c7a\"\n# shininess = 40           # a highlight; none at 1 or below\n",
                 tomlText(material));
     const auto& light = scene.lights.front();
-    replaceFile(scenePath,
-        fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
+    return fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
+version = 1
 up = "y"                     # or "z"
 
 [[mesh]]
@@ -71,12 +59,15 @@ color = "#ffffff"
 intensity = 1
 shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
 {5})",
-            tomlText(name), tomlText(relative.empty() ? std::filesystem::absolute(model).string() : relative.string()),
-            vectorText(scene.camera.position), vectorText(scene.camera.lookAt), vectorText(light.direction),
-            materials));
-    replaceFile(configPath,
-        fmt::format(
-            R"(# A picture: how to draw the scene. A section that is not there is an effect that is not there, at no cost.
+        tomlText(name), tomlText(file), vectorText(scene.camera.position), vectorText(scene.camera.lookAt),
+        vectorText(light.direction), materials);
+}
+
+/// A commented config beside it.
+std::string configText(const std::string& config, const std::string& name) {
+    return fmt::format(
+        R"(# A picture: how to draw the scene. A section that is not there is an effect that costs nothing.
+version = 1
 # See what will run with:  limn plan {0}
 scene = "scene.toml"
 camera = "main"
@@ -84,9 +75,28 @@ camera = "main"
 {1}
 [output]
 path = {2}                   # .png .jpg .tif, or .exr with every AOV in one file
-aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal depth position object_id material_id ...
+aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal depth object_id ...
 )",
-            configPath.string(), quickstartStyle(), tomlText(name + ".png")));
+        config, quickstartStyle(), tomlText(name + ".png"));
+}
+
+ExitCode run(const std::string& model, const std::string& folderText) {
+    const std::filesystem::path folder = folderText;
+    const LoadedScene loaded = loadScene(model);
+    const SceneAt scene = sceneAt(loaded, {.sections = {}});
+    const std::string name = std::filesystem::path(model).stem().string();
+    const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
+    for (const auto& path : {scenePath, configPath})
+        if (std::filesystem::exists(path))
+            throw Error(ExitCode::cannotCreate, {path.string()}, "exists already",
+                "choose another folder with --output, or move the file away");
+
+    std::error_code ignored;
+    const auto relative =
+        std::filesystem::relative(std::filesystem::absolute(model), std::filesystem::absolute(folder), ignored);
+    replaceFile(scenePath,
+        sceneText(scene, name, relative.empty() ? std::filesystem::absolute(model).string() : relative.string()));
+    replaceFile(configPath, configText(configPath.string(), name));
     log::info("Saved: '{}'", scenePath.string());
     log::info("Saved: '{}'", configPath.string());
     log::info("draw it with:  limn render {}", configPath.string());

@@ -38,7 +38,7 @@ ExitCode runStudyCommand(const StudyOptions& options) {
     const auto save = [&](std::string name, const Image& image) {
         std::replace(name.begin(), name.end(), ' ', '_');
         const Layer layer{"ambient_occlusion", {"Y"}, false, false, image};
-        replaceFile(folder / (name + ".png"), encodeImage(FileFormat::png, {&layer, 1}, {}, {}));
+        replaceFile(folder / (name + ".png"), encodeImage(*imageFormat("study.png"), {&layer, 1}, {}, {}));
     };
     Session session(options.session);
     fmt::print("{}×{} pixels, truth by {} rays per pixel; times: fastest of {}, {}\n\n", study.settings.size.x,

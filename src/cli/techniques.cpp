@@ -30,8 +30,11 @@ std::vector<Row> rows(Schema schema, const void* defaults) {
     return result;
 }
 
+/// Where a config chooses the technique: what is printed can be written.
+std::string_view keyOf(const Technique& technique) { return findSlot(technique.slot)->key; }
+
 std::string textOf(const Technique& technique) {
-    std::string out = fmt::format("{} = \"{}\"\n    {}\n", technique.slot, technique.name, technique.doc);
+    std::string out = fmt::format("{} = \"{}\"\n    {}\n", keyOf(technique), technique.name, technique.doc);
     for (const auto& row : rows(technique.schema, technique.makeParams().get())) {
         out += fmt::format("    {:<20} {}  ({}{}{}{}{})\n", row.name, row.standard, row.type,
             row.range.empty() ? "" : ", " + row.range, row.unit.empty() ? "" : ", " + row.unit,
@@ -45,8 +48,8 @@ std::string textOf(const Technique& technique) {
 }
 
 std::string jsonOf(const Technique& technique) {
-    std::string out = fmt::format("  {{\"slot\": {}, \"name\": {}, \"doc\": {}, \"parameters\": [",
-        jsonText(technique.slot), jsonText(technique.name), jsonText(technique.doc));
+    std::string out = fmt::format("  {{\"slot\": {}, \"key\": {}, \"name\": {}, \"doc\": {}, \"parameters\": [",
+        jsonText(technique.slot), jsonText(keyOf(technique)), jsonText(technique.name), jsonText(technique.doc));
     bool first = true;
     for (const auto& row : rows(technique.schema, technique.makeParams().get())) {
         out += fmt::format(
@@ -66,6 +69,17 @@ std::string jsonOf(const Technique& technique) {
     return out + "]}";
 }
 
+std::string jsonOf(const std::vector<const Technique*>& techniques) {
+    std::string slots, list;
+    for (const auto& slot : allSlots())
+        slots +=
+            fmt::format("{}  {{\"name\": {}, \"key\": {}, \"fallback\": {}, \"doc\": {}}}", slots.empty() ? "" : ",\n",
+                jsonText(slot.name), jsonText(slot.key), jsonText(slot.fallback), jsonText(slot.doc));
+    for (const auto* technique : techniques) list += (list.empty() ? "" : ",\n") + jsonOf(*technique);
+    return fmt::format(
+        "{{\"version\": {}, \"slots\": [\n{}\n], \"techniques\": [\n{}\n]}}\n", kFormatVersion, slots, list);
+}
+
 std::string escapedCell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
     return text;
@@ -82,7 +96,7 @@ std::string markdownTable(const std::vector<Row>& table) {
 }
 
 std::string markdownOf(const Technique& technique) {
-    std::string out = fmt::format("### {} = \"{}\"\n\n{}\n\n{}", technique.slot, technique.name, technique.doc,
+    std::string out = fmt::format("### {} = \"{}\"\n\n{}\n\n{}", keyOf(technique), technique.name, technique.doc,
         markdownTable(rows(technique.schema, technique.makeParams().get())));
     for (const auto& preset : technique.presets)
         out += fmt::format("\n`{} = \"{}\"`: {} (`{}`)\n", preset.name == "paper" ? "mode" : "preset", preset.name,
@@ -106,14 +120,12 @@ ExitCode run(const std::string& name, const std::string& format) {
         fmt::print("{}", parameterReference());
         return ExitCode::done;
     }
-    std::string out;
-    for (const auto* technique : chosen) {
-        if (format == "json")
-            out += (out.empty() ? "[\n" : ",\n") + jsonOf(*technique);
-        else
-            out += (format == "markdown" ? markdownOf(*technique) : textOf(*technique) + "\n");
+    if (format == "json") {
+        fmt::print("{}", jsonOf(chosen));
+        return ExitCode::done;
     }
-    fmt::print("{}{}", out, format == "json" ? "\n]\n" : "");
+    for (const auto* technique : chosen)
+        fmt::print("{}", format == "markdown" ? markdownOf(*technique) : textOf(*technique) + "\n");
     return ExitCode::done;
 }
 
@@ -126,7 +138,12 @@ std::string parameterReference() {
                    section.doc, markdownTable(rows(section.schema, nullptr)))
             + "\n";
     out += "## Techniques\n\n";
-    for (const auto* technique : allTechniques()) out += markdownOf(*technique);
+    for (const auto& slot : allSlots()) {
+        out += fmt::format("{} Without a word about it: {}.\n\n", slot.doc,
+            slot.fallback.empty() ? "nothing, at no cost" : fmt::format("`{}`", slot.fallback));
+        for (const auto* technique : allTechniques())
+            if (technique->slot == slot.name) out += markdownOf(*technique);
+    }
     out += "## Scene file\n\n";
     for (const auto& section : sceneSections())
         out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name),

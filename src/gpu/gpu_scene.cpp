@@ -159,6 +159,7 @@ void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     records_ = {0, static_cast<std::uint32_t>(recordWords)};
     tables_ = {};
     tableWords_.clear();
+    generations_.clear();
     if (has(needs, SceneData::positions)) words_.put(bytesOf(std::vector<std::uint32_t>(recordWords)));
 }
 

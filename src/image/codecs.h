@@ -1,4 +1,4 @@
-// The encoders behind openEncoder.
+// What the image library's module offers.
 //
 // PNG goes through libspng and EXR through OpenEXR, both linked in. JPEG, TIFF and reading go through OpenImageIO,
 // which pulls in hundreds of shared libraries and a fifth of a second: it lives in a module of its own that is loaded
@@ -8,10 +8,6 @@
 #include "image/image.h"
 
 namespace limn {
-
-std::unique_ptr<ImageEncoder> openPng(
-    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options);
-std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata);
 
 /// The functions that the OpenImageIO module offers.
 struct ImageModule {

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "image/codecs.h"
+#include "image/image.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -117,10 +117,12 @@ private:
     std::ptrdiff_t rows_ = 0;
 };
 
-}  // namespace
-
-std::unique_ptr<ImageEncoder> openExr(std::span<const Layer> layers, int height, const Metadata& metadata) {
+std::unique_ptr<ImageEncoder> openExr(
+    std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions&) {
     return std::make_unique<ExrEncoder>(layers, height, metadata);
 }
 
+const ImageFormat kExr{{".exr"}, "linear floating point, every AOV in one file", {.isMultiLayer = true}, openExr};
+
+}  // namespace
 }  // namespace limn

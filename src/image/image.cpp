@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/in_order.h"
+#include "base/text.h"
 #include "image/codecs.h"
 #include "settings/color.h"
 
@@ -118,31 +119,38 @@ void quantizeRows16(const Layer& layer, const std::function<void(const std::uint
     quantizeRows(layer, take);
 }
 
-std::optional<FileFormat> fileFormat(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".png") return FileFormat::png;
-    if (extension == ".jpg" || extension == ".jpeg") return FileFormat::jpeg;
-    if (extension == ".tif" || extension == ".tiff") return FileFormat::tiff;
-    if (extension == ".exr") return FileFormat::exr;
-    return std::nullopt;
+namespace {
+
+std::vector<const ImageFormat*>& registry() {
+    static std::vector<const ImageFormat*> formats;
+    return formats;
 }
 
-std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height,
-    const Metadata& metadata, const EncodeOptions& options) {
-    switch (format) {
-        case FileFormat::png: return openPng(layers.front(), height, metadata, options);
-        case FileFormat::exr: return openExr(layers, height, metadata);
-        case FileFormat::jpeg: return imageModule().openJpeg(layers.front(), height, metadata, options);
-        case FileFormat::tiff: return imageModule().openTiff(layers.front(), height, metadata, options);
-    }
-    throw Error(ExitCode::internal, {}, "unknown file format");
+}  // namespace
+
+ImageFormat::ImageFormat(std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_)
+    : extensions(std::move(extensions_)), doc(doc_), traits(traits_), open(open_) {
+    const auto before = [](auto* a, auto* b) { return a->extensions.front() < b->extensions.front(); };
+    registry().insert(std::upper_bound(registry().begin(), registry().end(), this, before), this);
+}
+
+const ImageFormat* imageFormat(const std::filesystem::path& path) {
+    const std::string extension = lowerCase(path.extension().string());
+    for (const auto* format : registry())
+        if (std::find(format->extensions.begin(), format->extensions.end(), extension) != format->extensions.end())
+            return format;
+    return nullptr;
+}
+
+std::string imageExtensions() {
+    std::vector<std::string> names;
+    for (const auto* format : registry()) names.emplace_back(format->extensions.front());
+    return joinOr(names);
 }
 
 std::vector<std::byte> encodeImage(
-    FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
-    const auto encoder = openEncoder(format, layers, layers.front().image.height, metadata, options);
+    const ImageFormat& format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
+    const auto encoder = format.open(layers, layers.front().image.height, metadata, options);
     encoder->add(layers);
     return encoder->finish();
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,13 +39,6 @@ struct Layer {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-enum class FileFormat { png, jpeg, tiff, exr };
-
-/// By extension: .png .jpg .jpeg .tif .tiff .exr
-std::optional<FileFormat> fileFormat(const std::filesystem::path& path);
-/// Holds several layers in one file.
-inline bool isMultiLayer(FileFormat format) { return format == FileFormat::exr; }
-
 struct EncodeOptions {
     int bits = 8;         ///< 8 or 16: PNG and TIFF
     int compression = 1;  ///< zlib level of PNG: 1 fast … 9 small
@@ -62,14 +56,37 @@ public:
     virtual std::vector<std::byte> finish() = 0;
 };
 
-/// One layer, except for EXR. `layers` say what will come (their images' width and channels), `height` how many rows.
-/// Throws Error.
-std::unique_ptr<ImageEncoder> openEncoder(FileFormat format, std::span<const Layer> layers, int height,
-    const Metadata& metadata, const EncodeOptions& options);
+/// A format of picture files. A format is one file: it ends with
+///     const ImageFormat kPng{{".png"}, "what it is", {}, openPng};
+/// and nothing else knows that it exists.
+struct ImageFormat {
+    struct Traits {
+        bool isMultiLayer = false;  ///< holds all layers in one file, numbers as they are
+        bool needsLibrary = false;  ///< the image library's module must be loaded for it
+    };
+    /// `layers` say what will come (their images' width and channels), `height` how many rows; one layer unless
+    /// multi-layer. Throws Error.
+    using Open = std::unique_ptr<ImageEncoder> (*)(
+        std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options);
+
+    std::vector<std::string_view> extensions;  ///< in lower case, the usual one first
+    std::string_view doc;
+    Traits traits;
+    Open open;
+
+    ImageFormat(std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_);
+    ImageFormat(const ImageFormat&) = delete;
+    ImageFormat& operator=(const ImageFormat&) = delete;
+};
+
+/// The format of a file by its extension, in any case; null where there is none.
+const ImageFormat* imageFormat(const std::filesystem::path& path);
+/// What a path can end in, for messages: ".exr, .jpg, .png or .tif".
+std::string imageExtensions();
 
 /// The bytes of a picture that is there as a whole.
 std::vector<std::byte> encodeImage(
-    FileFormat format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
+    const ImageFormat& format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
 
 /// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.
 Image readImage(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "image/codecs.h"
+#include "image/image.h"
 
 #include <fmt/format.h>
 #include <spng.h>
@@ -90,11 +90,12 @@ private:
     std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context_;
 };
 
-}  // namespace
-
 std::unique_ptr<ImageEncoder> openPng(
-    const Layer& layer, int height, const Metadata& metadata, const EncodeOptions& options) {
-    return std::make_unique<PngEncoder>(layer, height, metadata, options);
+    std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options) {
+    return std::make_unique<PngEncoder>(layers.front(), height, metadata, options);
 }
 
+const ImageFormat kPng{{".png"}, "8 or 16 bits, display-encoded, lossless", {}, openPng};
+
+}  // namespace
 }  // namespace limn

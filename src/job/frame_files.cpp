@@ -10,16 +10,15 @@ namespace limn {
 
 FrameWriter::FrameWriter(std::filesystem::path path, const EncodeOptions& options, int height)
     : path_(std::move(path)), options_(options), height_(height) {
-    if (!fileFormat(path_))
+    if (!imageFormat(path_))
         throw Error(
-            ExitCode::usage, {path_.string()}, "this is no picture file", "end the path in .png, .jpg, .tif or .exr");
+            ExitCode::usage, {path_.string()}, "this is no picture file", "end the path in " + imageExtensions());
 }
 
 void FrameWriter::add(const RenderedFrame& band) {
-    const FileFormat format = *fileFormat(path_);
-    if (isMultiLayer(format)) {
-        if (files_.empty())
-            files_.push_back({path_, openEncoder(format, band.layers, height_, band.metadata, options_)});
+    const ImageFormat& format = *imageFormat(path_);
+    if (format.traits.isMultiLayer) {
+        if (files_.empty()) files_.push_back({path_, format.open(band.layers, height_, band.metadata, options_)});
         files_.front().encoder->add(band.layers);
         return;
     }
@@ -44,7 +43,7 @@ void FrameWriter::add(const RenderedFrame& band) {
             std::filesystem::path to = path_;
             if (!isMain) to.replace_extension("." + layer.name + (exact ? ".exr" : path_.extension().string()));
             files_.push_back(
-                {to, openEncoder(exact ? FileFormat::exr : format, written, height_, band.metadata, options_)});
+                {to, (exact ? *imageFormat("exact.exr") : format).open(written, height_, band.metadata, options_)});
         }
         files_[i].encoder->add(written);
     }

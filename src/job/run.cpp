@@ -54,9 +54,9 @@ std::filesystem::path outputPath(const RenderConfig& config, const std::string& 
     if (several)
         throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "several configs would write the same file",
             "put {config} into the path, or name a folder");
-    if (!fileFormat(text))
+    if (!imageFormat(text))
         throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "this is no picture file",
-            "end the path in .png, .jpg, .tif or .exr");
+            "end the path in " + imageExtensions());
     return text;
 }
 
@@ -86,8 +86,8 @@ std::vector<Job> readJobs(const RunOptions& options) {
     for (const auto& path : options.configs) errors.run([&] { jobs.push_back(readJob(path, options, jobs)); });
     errors.throwIfAny();
     const bool needsLibrary = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
-        const auto format = fileFormat(job.output);
-        return format == FileFormat::jpeg || format == FileFormat::tiff;
+        const ImageFormat* format = imageFormat(job.output);
+        return format && format->traits.needsLibrary;
     });
     if (needsLibrary) preloadImageLibrary();
     return jobs;

@@ -23,6 +23,7 @@ Session::Stamp Session::stampOf(const std::filesystem::path& file) {
 void Session::loadAhead(const RenderConfig& config) {
     auto& loading = scenes_[nameOf(config)];
     if (loading.valid()) return;
+    begun_[nameOf(config)] = std::filesystem::file_time_type::clock::now();
     const auto load = [scene = config.scene, subdivide = config.subdivide] {
         return std::make_shared<const LoadedScene>(loadScene(scene, subdivide));
     };
@@ -42,12 +43,18 @@ const LoadedScene& Session::load(const RenderConfig& config) {
     loadAhead(config);
     const LoadedScene& loaded = *scenes_.at(nameOf(config)).get();
     for (const auto& files : {loaded.files, loaded.meshes->files()})
-        for (const auto& file : files) stamps_.try_emplace(file, stampOf(file));
+        for (const auto& file : files) {
+            const Stamp stamp = stampOf(file);
+            // What was written while it may have been read counts as changed.
+            const bool isSure = stamp && stamp->second < begun_.at(nameOf(config));
+            stamps_.try_emplace(file, isSure ? stamp : std::nullopt);
+        }
     return loaded;
 }
 
 void Session::forget(const RenderConfig& config) {
     scenes_.erase(nameOf(config));
+    begun_.erase(nameOf(config));
     meshes_ = {};
     if (renderer_) renderer_->await({});
     if (scenes_.empty()) stamps_.clear();
@@ -56,7 +63,7 @@ void Session::forget(const RenderConfig& config) {
 std::vector<std::filesystem::path> Session::changedFiles() const {
     std::vector<std::filesystem::path> changed;
     for (const auto& [file, stamp] : stamps_)
-        if (stampOf(file) != stamp) changed.push_back(file);
+        if (!stamp || stampOf(file) != stamp) changed.push_back(file);
     return changed;
 }
 

@@ -105,6 +105,45 @@ glm::dmat4 View::worldFromView() const {
     return m;
 }
 
+/// Where rays go: lens, shift, and the sample's place within its pixels.
+static void setRays(View& view, const Camera& camera) {
+    const glm::dvec2 size(view.imageSize);
+    double width;  // of the picture at unit depth, or in normalized units
+    if (view.orthographic) {
+        width = camera.orthographicHeight * view.unit * size.x / size.y;
+    } else if (camera.fov > 0) {
+        width = 2 * std::tan(glm::radians(camera.fov) / 2);
+    } else {
+        width = camera.sensorWidth / (camera.focalLength > 0 ? camera.focalLength : 35.0);
+    }
+    view.rayScale = glm::dvec2(width / size.x);
+    // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
+    const double fine = 1.0 / view.sampling.raster;
+    const glm::dvec2 jitter = view.sampling.jitterOf(view.sampling.subFrameOf(view.sample)) * fine,
+                     place = (glm::dvec2(view.sampling.placeOnRaster(view.sample)) + 0.5) * fine - 0.5;
+    view.rasterOffset = view.rayScale * (jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
+    view.rayOffset = view.rasterOffset + view.rayScale * place;
+    view.samplePlace = jitter + place;
+}
+
+/// Near, far, and what lies nearest.
+static void setDepths(View& view, const Camera& camera, const SceneInfo& scene) {
+    Bounds depths;
+    for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
+        const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x,
+            corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
+        depths.add(glm::dvec3(0, 0, -view.toView(p).z));
+    }
+    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's
+    // size.
+    const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
+    view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
+    // Reversed float depth is as precise with a tiny near distance as with a large one.
+    view.near = camera.near > 0 ? camera.near * view.unit : view.orthographic ? 0 : std::ldexp(1.0, -24);
+    view.nearest = depths.empty() ? 0 : std::max(depths.lo.z, view.near);
+    view.clipFar = std::max(reach * 1.5 + 1, 2 * view.near);
+}
+
 View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request) {
     View view;
     view.imageSize = request.imageSize;
@@ -132,38 +171,8 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.eye = camera.position;
     view.viewFromRelative = toView * view.unit;
 
-    const glm::dvec2 size(view.imageSize);
-    double width;  // of the picture at unit depth, or in normalized units
-    if (view.orthographic) {
-        width = camera.orthographicHeight * view.unit * size.x / size.y;
-    } else if (camera.fov > 0) {
-        width = 2 * std::tan(glm::radians(camera.fov) / 2);
-    } else {
-        width = camera.sensorWidth / (camera.focalLength > 0 ? camera.focalLength : 35.0);
-    }
-    view.rayScale = glm::dvec2(width / size.x);
-    // Pixel p sits at (p + 0.5 + jitter − size/2); shift moves the picture by fractions of its longer side.
-    const double fine = 1.0 / view.sampling.raster;
-    const glm::dvec2 jitter = view.sampling.jitterOf(view.sampling.subFrameOf(view.sample)) * fine,
-                     place = (glm::dvec2(view.sampling.placeOnRaster(view.sample)) + 0.5) * fine - 0.5;
-    view.rasterOffset = view.rayScale * (jitter - size * 0.5 + camera.shift * std::max(size.x, size.y));
-    view.rayOffset = view.rasterOffset + view.rayScale * place;
-    view.samplePlace = jitter + place;
-
-    Bounds depths;
-    for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
-        const glm::dvec3 p(corner & 1 ? scene.bounds.hi.x : scene.bounds.lo.x,
-            corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
-        depths.add(glm::dvec3(0, 0, -view.toView(p).z));
-    }
-    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's
-    // size.
-    const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
-    view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
-    // Reversed float depth is as precise with a tiny near distance as with a large one.
-    view.near = camera.near > 0 ? camera.near * view.unit : view.orthographic ? 0 : std::ldexp(1.0, -24);
-    view.nearest = depths.empty() ? 0 : std::max(depths.lo.z, view.near);
-    view.clipFar = std::max(reach * 1.5 + 1, 2 * view.near);
+    setRays(view, camera);
+    setDepths(view, camera, scene);
     return view;
 }
 

@@ -99,6 +99,20 @@ constexpr Field kOutput[] = {
     field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100}, "Quality of JPEG."),
 };
 
+/// The techniques that a node of a slot's key chooses.
+std::vector<TechniqueChoice> readSlot(const Slot& slot, const Node& node, ErrorCollector& errors) {
+    std::vector<std::string_view> children;
+    for (const auto& other : allSlots())
+        if (other.parent() == slot.key) children.push_back(other.ownKey());
+    std::vector<TechniqueChoice> choices;
+    if (node.isArray() && slot.fill != Slot::Fill::one)
+        for (const auto& entry : node.array())
+            choices.push_back(readChoice(entry, slot, slot.label(), errors, children));
+    else
+        choices.push_back(readChoice(node, slot, slot.label(), errors, children));
+    return choices;
+}
+
 class ConfigReader {
 public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides)
@@ -131,7 +145,7 @@ public:
                 "write for example \"1-24\"");
         readImage();
         readSheet();
-        readSlots();
+        config_.choices = readChoices(document_, errors_);
         readOutput();
         errors_.throwIfAny();
         return std::move(config_);
@@ -195,29 +209,6 @@ private:
             fail(*node->find("scale"), fmt::format("'{}' is no scale", sheet.scale), "write for example \"1:50\"");
     }
 
-    /// What fills a slot, from the node of its key.
-    void readSlot(const Slot& slot, const Node& node) {
-        auto& choices = config_.choices[std::string(slot.name)];
-        std::vector<std::string_view> children;
-        for (const auto& other : allSlots())
-            if (other.parent() == slot.key) children.push_back(other.ownKey());
-        if (node.isArray() && slot.fill != Slot::Fill::one)
-            for (const auto& entry : node.array())
-                choices.push_back(readChoice(entry, slot, slot.label(), errors_, children));
-        else
-            choices.push_back(readChoice(node, slot, slot.label(), errors_, children));
-    }
-
-    void readSlots() {
-        for (const auto& slot : allSlots()) {
-            const Node* section = slot.parent().empty() ? &document_ : document_.find(slot.parent());
-            if (const Node* node = section ? section->find(slot.ownKey()) : nullptr)
-                readSlot(slot, *node);
-            else if (!slot.fallback.empty())
-                config_.choices[std::string(slot.name)].push_back(defaultChoice(slot.name, slot.fallback));
-        }
-    }
-
     void readOutput() {
         static constexpr std::string_view alsoKnown[] = {"path", "aovs"};
         const Node* node = document_.find("output");
@@ -237,9 +228,9 @@ private:
             config_.output.encode.dpi = config_.image.dpi;
         // Without a word about where to: beside the working directory, under the config's name.
         if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
-        if (!fileFormat(config_.output.path))
+        if (!imageFormat(config_.output.path))
             fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()),
-                "end the path in .png, .jpg, .tif or .exr");
+                "end the path in " + imageExtensions());
     }
 
     void readAovs(const Node& node) {
@@ -326,6 +317,18 @@ technique = "depth_normal"
 width = "2px"
 color = "#2a2320"
 )";
+}
+
+Choices readChoices(const Node& document, ErrorCollector& errors) {
+    Choices choices;
+    for (const auto& slot : allSlots()) {
+        const Node* section = slot.parent().empty() ? &document : document.find(slot.parent());
+        if (const Node* node = section ? section->find(slot.ownKey()) : nullptr)
+            choices[std::string(slot.name)] = readSlot(slot, *node, errors);
+        else if (!slot.fallback.empty())
+            choices[std::string(slot.name)] = {defaultChoice(slot.name, slot.fallback)};
+    }
+    return choices;
 }
 
 const std::vector<TechniqueChoice>& RenderConfig::in(std::string_view slot) const {

@@ -12,6 +12,9 @@
 
 namespace limn {
 
+/// What fills each slot, by the slot's name; nothing where no technique does.
+using Choices = std::map<std::string, std::vector<TechniqueChoice>, std::less<>>;
+
 struct ImageSettings {
     glm::ivec2 size{1280, 720};
     int samples = 8;
@@ -37,8 +40,7 @@ struct RenderConfig {
     std::string camera;            ///< empty: the scene's first
     std::optional<int> subdivide;  ///< level for an OBJ that is the scene itself
     ImageSettings image;
-    /// What fills each slot, by the slot's name; nothing where no technique does.
-    std::map<std::string, std::vector<TechniqueChoice>, std::less<>> choices;
+    Choices choices;
     std::vector<std::string> sections;  ///< names of the scene's sections to cut by
     double scale = 0;                   ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
     std::optional<FrameRange> frames;   ///< narrows the scene's
@@ -66,6 +68,9 @@ struct ConfigOverrides {
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides = {});
 RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides = {});
+
+/// What a config's document chooses for the slots. Problems go to `errors`.
+Choices readChoices(const Node& document, ErrorCollector& errors);
 
 /// What the config wants of its scene at a frame.
 FrameRequest frameRequest(const RenderConfig& config, double frame);

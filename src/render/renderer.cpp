@@ -324,6 +324,15 @@ std::vector<Image> Renderer::drawTile(
     return ordered;
 }
 
+void Renderer::checkShadows(const SceneAt& scene, const std::string& file) const {
+    const ShadowLayout shadows = shadowLayout(scene.lights);
+    if (std::max(shadows.size.x, shadows.size.y) > largestTexture())
+        throw Error(ExitCode::usage, {file},
+            fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", shadows.size.x,
+                shadows.size.y, largestTexture()),
+            "lower shadow.resolution");
+}
+
 RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
@@ -335,12 +344,7 @@ RenderedFrame Renderer::render(
     const PixelRect firstBlock{glm::ivec2(0), largestBlock(size)};
     const TilePipelines pipelines = buildPipelines(
         config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
-    const ShadowLayout shadows = shadowLayout(frame.scene.lights);
-    if (std::max(shadows.size.x, shadows.size.y) > largestTexture())
-        throw Error(ExitCode::usage, {loaded.scene.file},
-            fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", shadows.size.x,
-                shadows.size.y, largestTexture()),
-            "lower shadow.resolution");
+    checkShadows(frame.scene, loaded.scene.file);
     watch.lap("plan");
     bringScene(frame, pipelines, result.times);
     watch.lap("scene to the GPU");

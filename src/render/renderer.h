@@ -90,6 +90,9 @@ private:
     void bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
     ContentKey shownAs(const ContentKey& order) const;
 
+    /// Throws Error where the shadow maps of all lights do not fit into a texture.
+    void checkShadows(const SceneAt& scene, const std::string& file) const;
+
     /// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that
     /// is to be kept).
     std::vector<Image> drawTile(

@@ -93,8 +93,8 @@ struct Field {
     std::string_view name;
     FieldInfo info;
     std::string_view doc;
-    const FieldType& (*type)();
-    void* (*member)(void* object);
+    const FieldType& (*type)() = nullptr;
+    void* (*member)(void* object) = nullptr;
 
     const void* member_(const void* object) const { return member(const_cast<void*>(object)); }
 };
@@ -122,6 +122,33 @@ constexpr Field field(std::string_view name, FieldInfo info, std::string_view do
 template <auto Member>
 constexpr Field field(std::string_view name, std::string_view doc) {
     return field<Member>(name, FieldInfo{}, doc);
+}
+
+/// A field that is an element of an array member.
+template <auto Member, std::size_t I>
+constexpr Field elementField(std::string_view name, FieldInfo info, std::string_view doc) {
+    using Traits = MemberOf<decltype(Member)>;
+    using Element = typename Traits::Type::value_type;
+    constexpr auto type = [] {
+        if constexpr (std::is_enum_v<Element>)
+            return &enumFieldType<Element>;
+        else
+            return &fieldType<Element>;
+    }();
+    return {name, info, doc, type,
+        [](void* object) -> void* { return &(static_cast<typename Traits::Struct*>(object)->*Member)[I]; }};
+}
+
+/// Tables one after the other, as one.
+template <std::size_t... N>
+constexpr auto joinFields(const std::array<Field, N>&... tables) {
+    std::array<Field, (N + ...)> all{};
+    std::size_t at = 0;
+    const auto append = [&](const auto& table) {
+        for (const auto& field : table) all[at++] = field;
+    };
+    (append(tables), ...);
+    return all;
 }
 
 using Schema = std::span<const Field>;

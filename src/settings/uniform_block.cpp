@@ -33,7 +33,7 @@ bool mentions(std::string_view text, std::string_view name) {
 
 void append(UniformBlock& block, std::string_view type, std::string_view name, std::span<const std::byte> bytes) {
     const std::size_t elements = std::max<std::size_t>(1, (bytes.size() + 15) / 16), at = block.bytes.size();
-    block.members.push_back({fmt::format("{}[{}]", type, elements), std::string(name), {}, elements * 16});
+    block.members.push_back({fmt::format("{}[{}]", type, elements), std::string(name), {}, elements * 16, at});
     block.bytes.resize(at + elements * 16);
     if (!bytes.empty()) std::memcpy(block.bytes.data() + at, bytes.data(), bytes.size());
 }
@@ -50,7 +50,7 @@ UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema,
         block.bytes.resize(at + type.glslSize);
         type.pack(field.member_(object), block.bytes.data() + at);
         block.members.push_back({std::string(type.glsl), std::string(field.name),
-            fmt::format("{}{}{}", field.info.unit, field.info.unit.empty() ? "" : ": ", field.doc), type.glslSize});
+            fmt::format("{}{}{}", field.info.unit, field.info.unit.empty() ? "" : ": ", field.doc), type.glslSize, at});
     }
     block.bytes.resize((block.bytes.size() + 15) / 16 * 16);
     return block;

@@ -16,7 +16,7 @@ struct UniformBlock {
     struct Member {
         std::string type, name;  ///< as GLSL has them: vec4[3]
         std::string comment;
-        std::size_t size = 0;  ///< bytes
+        std::size_t size = 0, offset = 0;  ///< bytes
     };
     std::string name;
     int binding = 0;

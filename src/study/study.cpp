@@ -103,26 +103,43 @@ private:
         readFields(node, kMethod, &method, nullptr, "[[method]]", errors_, alsoKnown);
         if (const Node* ao = node.find("ao"); ao && ao->isTable()) {
             method.ao = *ao;
-            static constexpr std::string_view filter[] = {"filter"};
-            static_cast<void>(readChoice(*ao, *findSlot("ao"), "ao of [[method]]", errors_, filter));
-        } else
+            static_cast<void>(readChoices(documentOf(*ao), errors_));
+        } else {
             fail(node, "a [[method]] needs 'ao', a table as in a render config", "");
-        if (const Node* tune = node.find("tune")) {
-            if (!tune->isTable())
-                fail(*tune, "'tune' must be a table of lists", "");
-            else
-                for (const auto& [key, values] : tune->table()) {
-                    StudyAxis axis{key, {}};
-                    if (!values.isArray() || values.array().empty())
-                        fail(values, fmt::format("'{}' must be a list of values", key), "");
-                    else
-                        for (const auto& value : values.array())
-                            axis.values.push_back(
-                                value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
-                    method.axes.push_back(std::move(axis));
-                }
         }
+        if (const Node* tune = node.find("tune")) readAxes(*tune, method);
         return method;
+    }
+
+    /// A config of nothing but this section.
+    static Node documentOf(const Node& ao) { return Node{ao.where, Node::Table{{"ao", ao}}, {}}; }
+
+    void readAxes(const Node& tune, StudyMethod& method) {
+        if (!tune.isTable()) return fail(tune, "'tune' must be a table of lists", "");
+        for (const auto& [key, values] : tune.table()) {
+            StudyAxis axis{key, {}};
+            if (!values.isArray() || values.array().empty())
+                fail(values, fmt::format("'{}' must be a list of values", key), "");
+            else
+                for (const auto& value : values.array()) {
+                    axis.values.push_back(
+                        value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
+                    checkAxis(method.ao, key, axis.values.back(), value);
+                }
+            method.axes.push_back(std::move(axis));
+        }
+    }
+
+    /// A config with this value must be one that can be read.
+    void checkAxis(const Node& ao, const std::string& key, const std::string& value, const Node& at) {
+        if (!ao.isTable() || ao.table().empty()) return;
+        ErrorCollector found;
+        found.run([&] {
+            Node document = documentOf(ao);
+            applySetting(document, fmt::format("ao.{}={}", key, value));
+            static_cast<void>(readChoices(document, found));
+        });
+        for (const auto& error : found.list()) errors_.add({error.code, at.where, error.problem, error.remedy});
     }
 
     ErrorCollector errors_;

@@ -59,7 +59,7 @@ void main() {
             bool allAbsent = isBackground(one) && isBackground(other) && isBackground(here);
             if (someAbsent) p = allAbsent ? 0.0 : 1.0 / params.perBleach;
 #endif
-            // For ambient shading a neighbour's absence tells nothing about how the surface bends.
+                // For ambient shading a neighbour's absence tells nothing about how the surface bends.
 #ifdef ALL_BENDS
             p = abs(p);
 #endif

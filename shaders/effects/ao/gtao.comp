@@ -26,7 +26,9 @@ void main() {
     vec2 turn = vec2(cos(first), sin(first));
     for (int i = 0; i < SLICES; ++i) {
         Slice s = sliceAt(sight, position, surface, turn);
-        open += s.weight * (openSide(s, pixel, position, 1.0, LEAST_RISE, random.y) + openSide(s, pixel, position, -1.0, LEAST_RISE, 1.0 - random.y));
+        open += s.weight
+            * (openSide(s, pixel, position, 1.0, LEAST_RISE, random.y)
+                + openSide(s, pixel, position, -1.0, LEAST_RISE, 1.0 - random.y));
         whole += s.weight * (openArc(s, 1.0, LEAST_RISE) + openArc(s, -1.0, LEAST_RISE));
         turn = vec2(turn.x * params.turn.x - turn.y * params.turn.y, turn.x * params.turn.y + turn.y * params.turn.x);
     }

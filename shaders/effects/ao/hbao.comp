@@ -7,16 +7,19 @@
 #include "effects/ao/horizon.glsl"
 
 #ifdef UNIFORM_WEIGHT
-// Hidden part along one direction: sin h − sin t, where h is the highest rise of the depth image above the picture's plane and t that of the
-// surface itself, raised by the bias. What rises higher counts as much as its own distance lets it.
+// Hidden part along one direction: sin h − sin t, where h is the highest rise of the depth image above the picture's
+// plane and t that of the surface itself, raised by the bias. What rises higher counts as much as its own distance lets
+// it.
 float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float jitter) {
     float farthest = params.radius / pixelFootprint(-position.z);
     float count = min(float(STEPS), max(ceil(farthest), 1.0));
-    // The surface's own rise: moving by (direction, z) stays on it where the normal is at right angles to that. z is towards the viewer.
+    // The surface's own rise: moving by (direction, z) stays on it where the normal is at right angles to that. z is
+    // towards the viewer.
     float rise = -dot(normal.xy, direction) / max(normal.z, 1e-4);
     float cosT = inversesqrt(1.0 + rise * rise), sinT = rise * cosT;
-    float lowest = sinT * params.cosBias + cosT * params.sinBias;     // sin(t + bias)
-    if (cosT * params.cosBias - sinT * params.sinBias <= 0.0) return 0.0;    // biased past the zenith: nothing can rise above
+    float lowest = sinT * params.cosBias + cosT * params.sinBias;  // sin(t + bias)
+    if (cosT * params.cosBias - sinT * params.sinBias <= 0.0)
+        return 0.0;  // biased past the zenith: nothing can rise above
     float highest = lowest, hidden = 0.0;
     for (float i = 0.0; i < count; ++i) {
         float reach = max(1.0, farthest * stepReach((i + jitter) / count, params.stepGrowth));

@@ -5,8 +5,8 @@
 #include "lib/occlusion.glsl"
 #include "lib/points.glsl"
 
-// Two directions that complete the normal to a basis, turned by a random vector (Gram and Schmidt); one of the axes helps out where the random
-// vector is parallel to the normal.
+// Two directions that complete the normal to a basis, turned by a random vector (Gram and Schmidt); one of the axes
+// helps out where the random vector is parallel to the normal.
 mat3 turnedBasis(vec3 normal, vec3 random) {
     vec3 tangent = random - normal * dot(random, normal);
     if (dot(tangent, tangent) < 1e-6) {

@@ -1,14 +1,14 @@
-// The horizon of the depth image along a slice, for techniques whose params have radius and stepGrowth and that define STEPS. Include after
-// lib/occlusion.glsl and lib/slices.glsl.
+// The horizon of the depth image along a slice, for techniques whose params have radius and stepGrowth and that define
+// STEPS. Include after lib/occlusion.glsl and lib/slices.glsl.
 
-// Open part of one side of a slice (side: 1 or -1), up to the highest thing within the radius that rises more than `leastRise` (sine) above the
-// surface.
+// Open part of one side of a slice (side: 1 or -1), up to the highest thing within the radius that rises more than
+// `leastRise` (sine) above the surface.
 float openSide(Slice s, ivec2 pixel, vec3 position, float side, float leastRise, float jitter) {
     float speed = length(s.onScreen);
     vec2 direction = s.onScreen * (side / max(speed, 1e-20));
     float farthest = marchLength(s, pixel, direction, speed, position, params.radius);
     float count = min(float(STEPS), max(ceil(farthest), 1.0));
-    float horizon = leastRise;     // cosine to the normal's projection
+    float horizon = leastRise;  // cosine to the normal's projection
 #if FALLOFF != FALLOFF_NONE
     float open = openArc(s, side, horizon);
 #endif
@@ -25,7 +25,8 @@ float openSide(Slice s, ivec2 pixel, vec3 position, float side, float leastRise,
 #else
         if (rise <= horizon) continue;
         // What rises above the horizon so far hides the angles between, as much as its distance lets it.
-        open -= falloffWeight(squared / (params.radius * params.radius)) * max(openArc(s, side, horizon) - openArc(s, side, min(rise, 1.0)), 0.0);
+        open -= falloffWeight(squared / (params.radius * params.radius))
+            * max(openArc(s, side, horizon) - openArc(s, side, min(rise, 1.0)), 0.0);
         horizon = rise;
 #endif
     }

@@ -29,7 +29,8 @@ void main() {
 #endif
     float hidden = 0.0;
     for (int i = 0; i < SAMPLES; ++i) {
-        // The cardinal and intercardinal directions; the paper's random distances, drawn so that each direction gets every distance in turn.
+        // The cardinal and intercardinal directions; the paper's random distances, drawn so that each direction gets
+        // every distance in turn.
         float angle = 6.283185307 * (float(i) / float(SAMPLES));
         float reach = farthest * fract((i & 1) == 0 ? random.x + float(i) * 0.618034 : random.y + float(i) * 0.618034);
 #ifdef OFFSET_IN_IMAGE

@@ -1,5 +1,5 @@
-// Brings an image of every second pixel to full resolution: each pixel from the four texels around it, by how near they are and by how
-// close to the pixel's own plane they lie.
+// Brings an image of every second pixel to full resolution: each pixel from the four texels around it, by how near they
+// are and by how close to the pixel's own plane they lie.
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 
@@ -23,7 +23,8 @@ void main() {
         ivec2 texel = min(base + ivec2(i & 1, i >> 1) * odd, last);
         float there = load(coarseDepth, texel).r, value = load(source, texel).r;
         // Beyond any length where nothing is there.
-        float distance = isBackground(there) ? 1e9 : abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
+        float distance =
+            isBackground(there) ? 1e9 : abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
         // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.
         float weight = 1.0 / (1.0 + distance * distance);
         sum += weight * value, total += weight;

@@ -20,7 +20,7 @@ float shareBelow(Slice s, vec2 at) {
 #else
     // The integral of cos(angle − n)·|sin angle| from the line of sight, signed; over everything it is cos n + n·sin n.
     float angle = s.angleN + away;
-    float cosTwice = d.y * d.y - d.x * d.x, sinTwice = 2.0 * d.x * d.y;     // of 2·away
+    float cosTwice = d.y * d.y - d.x * d.x, sinTwice = 2.0 * d.x * d.y;  // of 2·away
     float arc = 0.25 * (s.cosN + 2.0 * angle * s.sinN - (cosTwice * s.cosN - sinTwice * s.sinN));
     float lower = 0.25 * (2.0 * s.cosN + 2.0 * (s.angleN - HALF_PI) * s.sinN);
     return clamp(((angle < 0.0 ? -arc : arc) + lower) / max(s.cosN + s.angleN * s.sinN, 1e-6), 0.0, 1.0);
@@ -37,21 +37,23 @@ uint sectorsBetween(float a, float b, float dither) {
 #ifdef JOIN
 struct Tap {
     vec3 offset, normal;
-    vec2 at;            // inSlice
-    float share;        // shareBelow
-    bool exists, isNear, rises;    // near: within the radius; rises: above the surface, beyond rounding
+    vec2 at;                     // inSlice
+    float share;                 // shareBelow
+    bool exists, isNear, rises;  // near: within the radius; rises: above the surface, beyond rounding
 };
 
 // Where the way from a point within the radius to one beyond it crosses the radius.
 vec2 crossing(vec2 inside, vec2 outside) {
     vec2 way = outside - inside;
-    float a = max(dot(way, way), 1e-30), b = dot(inside, way), c = min(dot(inside, inside) - params.radius * params.radius, 0.0);
+    float a = max(dot(way, way), 1e-30), b = dot(inside, way),
+          c = min(dot(inside, inside) - params.radius * params.radius, 0.0);
     return inside + way * ((sqrt(b * b - a * c) - b) / a);
 }
 #endif
 
 // Adds the sectors that one side of a slice hides.
-void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface, float side, float jitter, float dither) {
+void march(
+    inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface, float side, float jitter, float dither) {
     float speed = length(s.onScreen);
     vec2 direction = s.onScreen * (side / max(speed, 1e-20));
     float farthest = marchLength(s, pixel, direction, speed, position, params.radius);
@@ -59,7 +61,8 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
     float squaredRadius = params.radius * params.radius;
 #ifdef JOIN
     // The point itself, a hair to the side, so that it has a direction.
-    Tap before = Tap(vec3(0), surface, vec2(side * 1e-6 * params.radius, 0.0), side < 0.0 ? 0.0 : 1.0, true, true, false);
+    Tap before =
+        Tap(vec3(0), surface, vec2(side * 1e-6 * params.radius, 0.0), side < 0.0 ? 0.0 : 1.0, true, true, false);
     float reachBefore = 0.0;
 #endif
     for (float i = 0.0; i < count; ++i) {
@@ -85,10 +88,12 @@ void march(inout uint hidden, Slice s, ivec2 pixel, vec3 position, vec3 surface,
 #ifdef JOIN
         vec3 face = exists ? decodeNormal(load(normal, tap * COARSENESS).xy) : vec3(0);
         if (exists && before.exists && (isNear || before.isNear)) {
-            // Neighbours are of one surface, or of two that meet, if one of them lies near the other's tangent plane. Steps of many
-            // pixels may pass over more, but not in proportion: else they join things that only stand near each other in the picture.
+            // Neighbours are of one surface, or of two that meet, if one of them lies near the other's tangent plane.
+            // Steps of many pixels may pass over more, but not in proportion: else they join things that only stand
+            // near each other in the picture.
             vec3 way = offset - before.offset;
-            float allowed = params.joinWithin * sqrt(max(reach - reachBefore, 1.0)) * pixelFootprint(min(there, -position.z - before.offset.z));
+            float allowed = params.joinWithin * sqrt(max(reach - reachBefore, 1.0))
+                * pixelFootprint(min(there, -position.z - before.offset.z));
             if (min(abs(dot(way, face)), abs(dot(way, before.normal))) <= allowed && (rises || before.rises)) {
                 float from = before.share, to = share;
                 if (!isNear) to = shareBelow(s, crossing(before.at, at));

@@ -1,4 +1,5 @@
-// Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or belong to something else.
+// Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or belong to
+// something else.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
@@ -8,8 +9,8 @@
 // What is compared of a pixel.
 struct Surface {
     float depth;
-    vec3 normal;            // for shading
-    vec3 position, face;    // view space; face: normal of the triangle
+    vec3 normal;          // for shading
+    vec3 position, face;  // view space; face: normal of the triangle
     uint object, material, record;
 };
 
@@ -18,13 +19,13 @@ Surface surfaceAt(ivec2 pixel) {
     s.depth = load(depth, pixel).r;
     s.position = viewPosition(pixel, isBackground(s.depth) ? 0.0 : s.depth);
     s.face = decodeNormal(load(normalGeometric, pixel).xy);
-#ifdef WITH_CREASES
+#ifdef WITH_CREASE
     s.normal = decodeNormal(load(normal, pixel).xy);
 #endif
-#ifdef WITH_OBJECTS
+#ifdef WITH_OBJECT
     s.object = load(objectId, pixel).r;
 #endif
-#ifdef WITH_MATERIALS
+#ifdef WITH_MATERIAL
     s.material = load(materialId, pixel).r;
 #endif
     s.record = 0u;
@@ -54,7 +55,8 @@ float creaseCosine(Surface s) {
 // Standard depth: 0 at near, 1 at far.
 float projected(float z) {
     if (isBackground(z)) return 1.0;
-    return ORTHOGRAPHIC ? (z - params.near) / (params.far - params.near) : params.far / (params.far - params.near) * (1.0 - params.near / z);
+    return ORTHOGRAPHIC ? (z - params.near) / (params.far - params.near)
+                        : params.far / (params.far - params.near) * (1.0 - params.near / z);
 }
 #endif
 
@@ -67,8 +69,8 @@ bool isStep(Surface a, Surface b) {
 #endif
 }
 
-// Why there is a line between two surfaces, if there is, and whose it is. Of several reasons the last that holds counts. Written without
-// branches: software renderers take both ways of each.
+// Why there is a line between two surfaces, if there is, and whose it is. Of several reasons the last that holds
+// counts. Written without branches: software renderers take both ways of each.
 Side sideBetween(Surface a, Surface b) {
     bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth), both = !emptyA && !emptyB;
     bool outline = emptyA != emptyB || (both && isStep(a, b)), bIsNearer = b.depth < a.depth;
@@ -77,20 +79,22 @@ Side sideBetween(Surface a, Surface b) {
     bool ownedByB = outline ? bIsNearer : !drawsA || (drawsB && bIsNearer);
     bool drawn = outline ? (bIsNearer ? drawsB : drawsA) : drawsA || drawsB;
     uint source = NO_SOURCE;
-#ifdef WITH_CREASES
+#ifdef WITH_CREASE
     float cosine = dot(a.normal, b.normal);
-    source = both && !outline && ((drawsA && cosine < creaseCosine(a)) || (drawsB && cosine < creaseCosine(b))) ? CREASE : source;
+    source = both && !outline && ((drawsA && cosine < creaseCosine(a)) || (drawsB && cosine < creaseCosine(b)))
+        ? CREASE
+        : source;
 #endif
-#ifdef WITH_MATERIALS
+#ifdef WITH_MATERIAL
     source = both && a.material != b.material ? MATERIAL : source;
 #endif
-#ifdef WITH_OBJECTS
+#ifdef WITH_OBJECT
     source = a.object != b.object ? OBJECT : source;
 #endif
-#ifdef WITH_SILHOUETTES
+#ifdef WITH_SILHOUETTE
     source = outline ? SILHOUETTE : source;
 #endif
-#ifdef WITH_SECTIONS
+#ifdef WITH_SECTION
     bool cutA = !emptyA && lineRecordAt(a.record).isCut, cutB = !emptyB && lineRecordAt(b.record).isCut;
     source = cutA != cutB ? SECTION : source;
     ownedByB = cutA != cutB ? cutB : ownedByB;
@@ -102,6 +106,7 @@ void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     Surface here = surfaceAt(pixel);
-    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))), above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
+    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))),
+         above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
     write_result(uvec4(encodeSides(right, above), 0u, 0u, 0u));
 }

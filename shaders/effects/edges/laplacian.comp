@@ -1,4 +1,5 @@
-// Outlines of chosen objects: where a mask of them changes between neighbouring pixels, which is where its Laplacian is not 0 (paper 002).
+// Outlines of chosen objects: where a mask of them changes between neighbouring pixels, which is where its Laplacian is
+// not 0 (paper 002).
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"
@@ -7,7 +8,7 @@
 struct Surface {
     float depth;
     vec3 position, face;
-    uint label;     // what outlines run between: 0 or 1 where objects are chosen, else the object's number
+    uint label;  // what outlines run between: 0 or 1 where objects are chosen, else the object's number
 };
 
 #ifdef CHOSEN
@@ -35,7 +36,8 @@ Surface surfaceAt(ivec2 pixel) {
 
 Side sideBetween(Surface a, Surface b) {
     bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth);
-    bool ends = emptyA != emptyB || isStepBetween(a.position, a.face, b.position, b.face, pixelFootprint(min(a.depth, b.depth)), 0.05);
+    bool ends = emptyA != emptyB
+        || isStepBetween(a.position, a.face, b.position, b.face, pixelFootprint(min(a.depth, b.depth)), 0.05);
     // A line belongs to what is chosen; among all objects to the nearer.
 #ifdef CHOSEN
     bool ownedByB = b.label == 1u;
@@ -49,6 +51,7 @@ void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel)) return;
     Surface here = surfaceAt(pixel);
-    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))), above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
+    Side right = sideBetween(here, surfaceAt(min(pixel + ivec2(1, 0), view.size - 1))),
+         above = sideBetween(here, surfaceAt(min(pixel + ivec2(0, 1), view.size - 1)));
     write_result(uvec4(encodeSides(right, above), 0u, 0u, 0u));
 }

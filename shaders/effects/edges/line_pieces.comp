@@ -1,8 +1,12 @@
-// Joins the crossings on the sides of each cell (four pixels whose centres form a square; this pixel is the lower left) into pieces of line.
+// Joins the crossings on the sides of each cell (four pixels whose centres form a square; this pixel is the lower left)
+// into pieces of line.
 #include "lib/space.glsl"
 #include "lib/lines.glsl"
 
-struct Corner { vec2 place; uint code; };   // a crossing on a side of the cell, in the cell's square of 1×1
+struct Corner {
+    vec2 place;
+    uint code;
+};  // a crossing on a side of the cell, in the cell's square of 1×1
 
 Piece join(Corner a, Corner b) {
     // The owner's side, counted from the piece: the pixel on the owner's side of the crossing lies there.
@@ -12,7 +16,10 @@ Piece join(Corner a, Corner b) {
     return Piece(a.place, b.place, a.code, along.x * off.y - along.y * off.x > 0.0);
 }
 
-uvec2 crossingsAt(ivec2 pixel) { return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size)) ? uvec2(0) : load(crossings, pixel).xy; }
+uvec2 crossingsAt(ivec2 pixel) {
+    return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size)) ? uvec2(0)
+                                                                                     : load(crossings, pixel).xy;
+}
 
 // A crossing that no other one continues on either side is no line but a speck.
 bool goesOn(ivec2 cell, bool viaBottom, bool viaRight, bool viaUpper) {
@@ -28,11 +35,13 @@ void main() {
     ivec2 cell = thisPixel();
     if (!insideRegion(cell) || IS_MASKED(cell)) return;
     uvec2 own = load(crossings, cell).xy;
-    uint bottom = own.x, left = own.y, right = crossingsAt(cell + ivec2(1, 0)).y, upper = crossingsAt(cell + ivec2(0, 1)).x;
+    uint bottom = own.x, left = own.y, right = crossingsAt(cell + ivec2(1, 0)).y,
+         upper = crossingsAt(cell + ivec2(0, 1)).x;
     int count = int(bottom != 0u) + int(right != 0u) + int(upper != 0u) + int(left != 0u);
     uvec4 pieces = uvec4(0);
     if (count > 0) {
-        Corner b = Corner(vec2(placeOf(bottom), 0), bottom), r = Corner(vec2(1, placeOf(right)), right), u = Corner(vec2(placeOf(upper), 1), upper), l = Corner(vec2(0, placeOf(left)), left);
+        Corner b = Corner(vec2(placeOf(bottom), 0), bottom), r = Corner(vec2(1, placeOf(right)), right),
+               u = Corner(vec2(placeOf(upper), 1), upper), l = Corner(vec2(0, placeOf(left)), left);
         Corner from, to, third;
         if (count == 4) {
             // Two lines cross.
@@ -43,14 +52,16 @@ void main() {
             Corner one = bottom == 0u ? r : right == 0u ? u : upper == 0u ? l : b;
             Corner middle = bottom == 0u ? u : right == 0u ? l : upper == 0u ? b : r;
             Corner other = bottom == 0u ? l : right == 0u ? b : upper == 0u ? r : u;
-            // A line runs on through what is of its kind, and straight on if that decides nothing; the third one ends on it.
+            // A line runs on through what is of its kind, and straight on if that decides nothing; the third one ends
+            // on it.
             bool oneIsOdd = sourceOf(one.code) != sourceOf(other.code) && sourceOf(other.code) == sourceOf(middle.code);
             bool otherIsOdd = sourceOf(one.code) != sourceOf(other.code) && sourceOf(one.code) == sourceOf(middle.code);
             from = oneIsOdd ? middle : one;
             to = otherIsOdd ? middle : other;
             third = oneIsOdd ? one : otherIsOdd ? other : middle;
             vec2 along = to.place - from.place;
-            vec2 end = from.place + along * clamp(dot(third.place - from.place, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+            vec2 end = from.place
+                + along * clamp(dot(third.place - from.place, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
             pieces.zw = encodePiece(join(third, Corner(end, third.code)));
         } else {
             from = bottom != 0u ? b : right != 0u ? r : upper != 0u ? u : l;
@@ -58,7 +69,8 @@ void main() {
             // A line that ends, ends in the middle of its last cell.
             if (count == 1) to.place = vec2(0.5);
         }
-        if (count > 1 || goesOn(cell, bottom != 0u, right != 0u, upper != 0u)) pieces.xy = withSecond(encodePiece(join(from, to)), count > 2);
+        if (count > 1 || goesOn(cell, bottom != 0u, right != 0u, upper != 0u))
+            pieces.xy = withSecond(encodePiece(join(from, to)), count > 2);
     }
     write_first(uvec4(pieces.xy, 0u, 0u));
     write_second(uvec4(pieces.zw, 0u, 0u));

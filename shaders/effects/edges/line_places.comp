@@ -13,15 +13,17 @@
 struct Surface {
     ivec2 pixel;
     float depth;
-    vec3 position, face;    // view space; face: normal of the triangle
+    vec3 position, face;  // view space; face: normal of the triangle
 };
 
 Surface surfaceAt(ivec2 pixel) {
     float z = load(depth, pixel).r;
-    return Surface(pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(load(normalGeometric, pixel).xy));
+    return Surface(
+        pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(load(normalGeometric, pixel).xy));
 }
 
-// Where the planes of two surfaces meet, as seen on the way from a's pixel to b's; 0.5 where they do not, or do so elsewhere.
+// Where the planes of two surfaces meet, as seen on the way from a's pixel to b's; 0.5 where they do not, or do so
+// elsewhere.
 float meetingPlace(Surface a, Surface b) {
     // Of what is linear in the picture, 1/depth or depth, on each plane at both ends: the difference at a, and at b.
     float atA, atB;
@@ -53,7 +55,8 @@ uint crossingBetween(Surface a, Surface b, Side side) {
     record = load(lineRecord, side.ownedByOther ? b.pixel : a.pixel).r;
 #endif
     float far = clamp((min(a.depth, b.depth) - params.fadeFrom) * params.fadeScale, 0.0, 1.0);
-    return encodeCrossing(Crossing(place, side.source, record, 1.0 - params.taper * far, 1.0 - params.fade * far, side.ownedByOther));
+    return encodeCrossing(
+        Crossing(place, side.source, record, 1.0 - params.taper * far, 1.0 - params.fade * far, side.ownedByOther));
 }
 
 void main() {
@@ -63,13 +66,16 @@ void main() {
     Surface here = surfaceAt(pixel);
     // Few pixels have a line on both ways: pixels that are drawn together take turns as often as one of them needs.
     uvec2 crossings = uvec2(0);
-    uint pending = uint(decodeSide(found, 0).source != NO_SOURCE) | (uint(decodeSide(found, 1).source != NO_SOURCE) << 1);
+    uint pending =
+        uint(decodeSide(found, 0).source != NO_SOURCE) | (uint(decodeSide(found, 1).source != NO_SOURCE) << 1);
     do {
         int direction = (pending & 1u) != 0u ? 0 : 1;
         ivec2 way = direction == 0 ? ivec2(1, 0) : ivec2(0, 1);
         uint crossing = crossingBetween(here, surfaceAt(min(pixel + way, view.size - 1)), decodeSide(found, direction));
-        if (direction == 0) crossings.x = crossing;
-        else crossings.y = crossing;
+        if (direction == 0)
+            crossings.x = crossing;
+        else
+            crossings.y = crossing;
         pending &= pending - 1u;
     } while (pending != 0u);
     write_result(uvec4(crossings, 0u, 0u));

@@ -7,6 +7,7 @@ void main() {
     if (any(greaterThan(tile, last))) return;
     float found = 0.0;
     for (int y = -params.reach; y <= params.reach; ++y)
-        for (int x = -params.reach; x <= params.reach; ++x) found = max(found, load(tiles, clamp(tile + ivec2(x, y), ivec2(0), last)).r);
+        for (int x = -params.reach; x <= params.reach; ++x)
+            found = max(found, load(tiles, clamp(tile + ivec2(x, y), ivec2(0), last)).r);
     write_result(vec4(found));
 }

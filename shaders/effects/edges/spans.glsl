@@ -1,31 +1,40 @@
 // How far triangles reach between the centres of two pixels: where an outline runs, to a fraction of a pixel.
 //
-// Include after a sampler `visibility` is declared. Works on homogeneous screen coordinates counted from the first pixel's centre, which stay
-// exact for triangles of any size and for those that reach behind the eye.
+// Include after a sampler `visibility` is declared. Works on homogeneous screen coordinates counted from the first
+// pixel's centre, which stay exact for triangles of any size and for those that reach behind the eye.
 
 #include "lib/seen.glsl"
 
-uvec2 seenAt(ivec2 pixel) { return decodeSeen(load(visibility, (clamp(pixel, ivec2(0), view.size - 1) + view.placeInCanvas) * view.raster + view.placeOnRaster)); }
+uvec2 seenAt(ivec2 pixel) {
+    return decodeSeen(load(
+        visibility, (clamp(pixel, ivec2(0), view.size - 1) + view.placeInCanvas) * view.raster + view.placeOnRaster));
+}
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // What is seen at a pixel: a triangle of an instance, and its corners in mesh space.
-struct Triangle { uint number; vec3 corners[3]; };
+struct Triangle {
+    uint number;
+    vec3 corners[3];
+};
 
 Triangle triangleOf(uvec2 seen) {
     uint number = seen.x - 1u;
     Instance instance = instanceAt(number);
     ivec3 at = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + seen.y)).xyz);
-    return Triangle(number, vec3[3](texelFetch(positions, at.x).xyz, texelFetch(positions, at.y).xyz, texelFetch(positions, at.z).xyz));
+    return Triangle(number,
+        vec3[3](texelFetch(positions, at.x).xyz, texelFetch(positions, at.y).xyz, texelFetch(positions, at.z).xyz));
 }
 
-// Edge functions of a triangle, linear along the way from a pixel: at + slope · t, all of one sign inside. Divided by their sum they are the barycentric
-// weights of the corners across.
-struct EdgeFunctions { vec3 at, slope; };
+// Edge functions of a triangle, linear along the way from a pixel: at + slope · t, all of one sign inside. Divided by
+// their sum they are the barycentric weights of the corners across.
+struct EdgeFunctions {
+    vec3 at, slope;
+};
 
 EdgeFunctions edgesOf(Triangle triangle, ivec2 pixel, ivec2 way) {
     vec2 centre = rayOf(pixel), along = vec2(way) * view.rayScale;
-    vec3 h[3];   // xy: from the pixel's centre, times z
+    vec3 h[3];  // xy: from the pixel's centre, times z
     for (int i = 0; i < 3; ++i) {
         vec3 p = viewFromMesh(triangle.number, triangle.corners[i]);
         float w = ORTHOGRAPHIC ? 1.0 : -p.z;
@@ -48,16 +57,20 @@ vec2 spanOf(Triangle triangle, ivec2 pixel, ivec2 way) {
     vec2 span = vec2(-1e9, 1e9);
     for (int i = 0; i < 3; ++i) {
         float start = side * at[i], change = side * slope[i];
-        if (change > 0.0) span.x = max(span.x, -start / change);
-        else if (change < 0.0) span.y = min(span.y, -start / change);
-        else if (start < 0.0) span.y = -1e9;
+        if (change > 0.0)
+            span.x = max(span.x, -start / change);
+        else if (change < 0.0)
+            span.y = min(span.y, -start / change);
+        else if (start < 0.0)
+            span.y = -1e9;
     }
     return span;
 }
 
 uint objectSeen(uvec2 seen) { return triangleObject(instanceAt(seen.x - 1u), seen.y); }
 
-// Do two triangles of an instance have two corners in common? Corners are stored anew for some triangles: places decide.
+// Do two triangles of an instance have two corners in common? Corners are stored anew for some triangles: places
+// decide.
 bool shareEdge(Triangle one, Triangle other) {
     int alike = 0;
     for (int i = 0; i < 3; ++i) {
@@ -91,12 +104,15 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
 #endif
 
 // What is seen beside the way's ends: on both sides of its begin, then of its end.
-uvec2 seenBeside(ivec2 pixel, ivec2 way, int i) { return seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? way.yx : -way.yx)); }
+uvec2 seenBeside(ivec2 pixel, ivec2 way, int i) {
+    return seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? way.yx : -way.yx));
+}
 
 // How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
 //
-// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be seen at any pixel's centre:
-// it may be the other half of the same polygon, which has the next number or the one before; else it is seen close by, if anywhere. Without `goOn` the triangle's own end counts.
+// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be
+// seen at any pixel's centre: it may be the other half of the same polygon, which has the next number or the one
+// before; else it is seen close by, if anywhere. Without `goOn` the triangle's own end counts.
 float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     uvec2 seen = seenAt(pixel);
     Triangle first = triangleOf(seen), end = first;
@@ -107,7 +123,8 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     if (hole <= 1.0) return hole;
 #endif
     if (!goOn) return reach;
-    // Candidates in the order in which they are tried: the triangle before it, the one after it, then those seen beside the way's ends.
+    // Candidates in the order in which they are tried: the triangle before it, the one after it, then those seen beside
+    // the way's ends.
     uint candidates = uint(seen.y > 0u) | (uint(seen.y + 1u < triangleCountOf(seen.x - 1u)) << 1);
     for (int i = 0; i < 4; ++i) {
         uvec2 other = seenBeside(pixel, way, i);
@@ -122,12 +139,13 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
         Triangle next = triangleOf(candidates == 0u ? seen : other);
         vec2 span = spanOf(next, pixel, way);
         // Neighbours share an edge, so that one begins where the other ends: but for rounding.
-        bool goesOn = reach < 1.0 && candidates != 0u && span.x <= reach + 0.01 && span.y > reach && (!isNumbered || shareEdge(first, next));
+        bool goesOn = reach < 1.0 && candidates != 0u && span.x <= reach + 0.01 && span.y > reach
+            && (!isNumbered || shareEdge(first, next));
         if (goesOn) last = span, end = next, reach = min(span.y, 1.0);
         candidates = reach < 1.0 ? candidates & (candidates - 1u) : 0u;
     } while (candidates != 0u);
-    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way. (Not so beyond a face seen nearly
-    // edge-on, which is thin but long.)
+    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way.
+    // (Not so beyond a face seen nearly edge-on, which is thin but long.)
     vec2 beside = spanOf(end, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), way.yx);
     if (last.y - last.x < 0.75 && beside.y - beside.x < 1.5) reach = 0.5 * (reach + 1.0);
     return reach;

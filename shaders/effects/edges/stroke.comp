@@ -3,21 +3,17 @@
 #include "lib/space.glsl"
 #include "lib/lines.glsl"
 
-// Half of the width in pixels, by why there is a line.
-float halfWidthOf(uint source) {
+// How lines of a source look: colour, and half of the width in pixels. No line at all looks like the first.
+vec4 styleOf(uint source) {
 #ifdef ONE_LOOK
-    return params.silhouette.a;
+    return params.styles[0];
 #else
-    return source == SILHOUETTE ? params.silhouette.a : source == CREASE ? params.crease.a : source == OBJECT ? params.object.a : source == MATERIAL ? params.material.a : params.section.a;
+    return params.styles[max(int(source), 1) - 1];
 #endif
 }
 
-vec3 colorOf(uint source) {
-    return source == SILHOUETTE ? params.silhouette.rgb : source == CREASE ? params.crease.rgb : source == OBJECT ? params.object.rgb : source == MATERIAL ? params.material.rgb : params.section.rgb;
-}
-
-// The share of a pixel that lies on the near side of a straight line whose distance from the pixel's centre, towards its far side, is s. The
-// pixel's shadow on the line's unit normal n is a trapezium; this is the area of its part.
+// The share of a pixel that lies on the near side of a straight line whose distance from the pixel's centre, towards
+// its far side, is s. The pixel's shadow on the line's unit normal n is a trapezium; this is the area of its part.
 float shareWithin(float s, vec2 n) {
     vec2 side = abs(n);
     float longer = max(max(side.x, side.y), 0.7), shorter = max(min(side.x, side.y), 1e-4);
@@ -26,9 +22,9 @@ float shareWithin(float s, vec2 n) {
     return s > 0.0 ? 1.0 - beyond : beyond;
 }
 
-// How much of the pixel a line covers whose nearest point lies `away` from its centre. The line is a band around its pieces; beside them where
-// it lies wholly within, or without, of what it bounds. Its coverage is the area of its part of the pixel: the right weight in every
-// direction and at every width, those below a pixel included.
+// How much of the pixel a line covers whose nearest point lies `away` from its centre. The line is a band around its
+// pieces; beside them where it lies wholly within, or without, of what it bounds. Its coverage is the area of its part
+// of the pixel: the right weight in every direction and at every width, those below a pixel included.
 float coverageOf(vec2 away, vec2 along, bool within, float halfWidth) {
     float distance = length(away);
     vec2 normal = distance > 1e-4 ? away / distance : vec2(-along.y, along.x) / max(length(along), 1e-3);
@@ -43,7 +39,11 @@ float coverageOf(vec2 away, vec2 along, bool within, float halfWidth) {
 }
 
 // A piece of line, as seen from a pixel.
-struct Seen { vec2 away, along; uint code; bool within; };
+struct Seen {
+    vec2 away, along;
+    uint code;
+    bool within;
+};
 
 Seen see(uvec2 code, vec2 fromCorner) {
     Piece piece = decodePiece(code);
@@ -51,7 +51,8 @@ Seen see(uvec2 code, vec2 fromCorner) {
     float squared = dot(along, along);
     // A piece without a length has no direction either; its neighbours draw what it would. Nor has no piece at all.
     if (squared == 0.0) off = vec2(1e4);
-    return Seen(off - clamp(dot(off, along) / max(squared, 1e-6), 0.0, 1.0) * along, along, piece.code, (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
+    return Seen(off - clamp(dot(off, along) / max(squared, 1e-6), 0.0, 1.0) * along, along, piece.code,
+        (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
 }
 
 // What covers the pixel: colour, and opacity there.
@@ -63,20 +64,23 @@ Seen best;
 float farthest = -1e9, bestHalf = 0.0;
 
 void add(Seen seen) {
-    float halfWidth = halfWidthOf(sourceOf(seen.code)) * thicknessOf(seen.code), reach = halfWidth - length(seen.away);
+    float halfWidth = styleOf(sourceOf(seen.code)).a * thicknessOf(seen.code), reach = halfWidth - length(seen.away);
     if (reach > farthest) best = seen, farthest = reach, bestHalf = halfWidth;
 }
 
 void finish() {
-    if (farthest > -2.0) top = vec4(params.silhouette.rgb, coverageOf(best.away, best.along, best.within, bestHalf) * strengthOf(best.code));
+    if (farthest > -2.0)
+        top = vec4(
+            params.styles[0].rgb, coverageOf(best.away, best.along, best.within, bestHalf) * strengthOf(best.code));
 }
 #else
 float topWidth = 0.0;
 
 // The widest line lies on top of the others. Of pieces of one line the strongest counts, since pieces of one line join.
 void add(Seen seen) {
-    float halfWidth = halfWidthOf(sourceOf(seen.code));
-    vec4 ink = vec4(colorOf(sourceOf(seen.code)), coverageOf(seen.away, seen.along, seen.within, halfWidth * thicknessOf(seen.code)) * strengthOf(seen.code));
+    float halfWidth = styleOf(sourceOf(seen.code)).a;
+    vec4 ink = vec4(styleOf(sourceOf(seen.code)).rgb,
+        coverageOf(seen.away, seen.along, seen.within, halfWidth * thicknessOf(seen.code)) * strengthOf(seen.code));
 #ifdef WITH_RECORDS
     LineRecord own = lineRecordAt(recordOf(seen.code));
     if (own.hasColor) ink.rgb = own.color;
@@ -92,19 +96,23 @@ void finish() {}
 #endif
 
 // Cells whose pieces may reach a pixel, row by row.
-ivec2 cellNear(ivec2 pixel, int i) { return clamp(pixel + ivec2(i % (2 * WINDOW), i / (2 * WINDOW)) - WINDOW, ivec2(0), view.size - 1); }
+ivec2 cellNear(ivec2 pixel, int i) {
+    return clamp(pixel + ivec2(i % (2 * WINDOW), i / (2 * WINDOW)) - WINDOW, ivec2(0), view.size - 1);
+}
 
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
-    // Pieces lie on the grid of this sample's points; lines are drawn as seen from the middle of the pixel, so that all samples agree.
+    // Pieces lie on the grid of this sample's points; lines are drawn as seen from the middle of the pixel, so that all
+    // samples agree.
     vec2 here = -view.samplePlace;
-    // Few of the cells around have a piece. Which ones is found out first: pixels that are drawn together then go through as many pieces as one
-    // of them has, not through all cells.
+    // Few of the cells around have a piece. Which ones is found out first: pixels that are drawn together then go
+    // through as many pieces as one of them has, not through all cells.
     for (int begin = 0; begin < WINDOW * WINDOW * 4; begin += 32) {
         uint occupied = 0u;
-        for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i) occupied |= uint(load(first, cellNear(pixel, begin + i)).x != 0u) << i;
-        bool beside = false;   // is it the turn of a cell's second piece?
+        for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i)
+            occupied |= uint(load(first, cellNear(pixel, begin + i)).x != 0u) << i;
+        bool beside = false;  // is it the turn of a cell's second piece?
         do {
             ivec2 cell = cellNear(pixel, begin + max(findLSB(occupied), 0));
             uvec2 one = load(first, cell).xy, two = load(second, cell).xy;

@@ -14,6 +14,7 @@ void main() {
     if (!insideRegion(pixel)) return;
     float sum = 0.0;
     for (int y = FIRST; y <= LAST; ++y)
-        for (int x = FIRST; x <= LAST; ++x) sum += weightOf(x) * weightOf(y) * load(source, clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1)).r;
+        for (int x = FIRST; x <= LAST; ++x)
+            sum += weightOf(x) * weightOf(y) * load(source, clamp(pixel + ivec2(x, y), ivec2(0), view.size - 1)).r;
     write_result(vec4(sum / float(SIZE * SIZE)));
 }

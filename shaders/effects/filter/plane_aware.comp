@@ -1,4 +1,5 @@
-// 3×3 taps over the pixel's own plane, `spacing` pixels apart. A surface is ambient occlusion, depth, and the normal's two coordinates.
+// 3×3 taps over the pixel's own plane, `spacing` pixels apart. A surface is ambient occlusion, depth, and the normal's
+// two coordinates.
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/likeness.glsl"
@@ -25,7 +26,8 @@ void main() {
             float off = offPlane(position, n, perFootprint, tap, there.y);
             // Squared inside: bell() of all distances at once.
             float apart = (there.x - here.x) * params.perDifference;
-            float unlike = min(off * off, 4.0) + dot(turned, turned) * params.perTurn + apart * apart, rest = max(1.0 - unlike, 0.0);
+            float unlike = min(off * off, 4.0) + dot(turned, turned) * params.perTurn + apart * apart,
+                  rest = max(1.0 - unlike, 0.0);
             float weight = WEIGHTS[abs(x)] * WEIGHTS[abs(y)] * rest * rest;
             sum += weight * there.x, total += weight;
         }

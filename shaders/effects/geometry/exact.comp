@@ -1,7 +1,9 @@
-// Resolves the visibility buffer: evaluates, analytically and once per pixel, just what the plan reads of the triangle seen there.
+// Resolves the visibility buffer: evaluates, analytically and once per pixel, just what the plan reads of the triangle
+// seen there.
 //
-// The pixel's ray is taken into the mesh's own space, where the vertices are exactly what was uploaded, and intersected with the
-// triangle's plane in double precision: depth is right to half an ulp of the float it is stored in, at every distance and tilt.
+// The pixel's ray is taken into the mesh's own space, where the vertices are exactly what was uploaded, and intersected
+// with the triangle's plane in double precision: depth is right to half an ulp of the float it is stored in, at every
+// distance and tilt.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
@@ -13,12 +15,12 @@
 // A triangle in mesh space, and the way there from view space.
 struct Surface {
     MeshFromView meshFromView;
-    dvec3 corner, edge1, edge2, plane;   // plane: edge1 × edge2
+    dvec3 corner, edge1, edge2, plane;  // plane: edge1 × edge2
 };
 
 struct Hit {
-    double depth;       // along the view axis
-    vec2 weights;       // barycentric weights of the second and third corner
+    double depth;  // along the view axis
+    vec2 weights;  // barycentric weights of the second and third corner
 };
 
 // The component of v in which `plane` is largest.
@@ -32,7 +34,8 @@ Hit intersect(Surface s, dvec2 pixelCentre) {
     dvec3 origin = s.meshFromView.offset, direction;
     for (int i = 0; i < 3; ++i) {
         double sideways = dot(s.meshFromView.rows[i].xy, ray);
-        // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into the mesh keeps t.
+        // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into the mesh keeps
+        // t.
         direction[i] = (ORTHOGRAPHIC ? 0.0lf : sideways) - s.meshFromView.rows[i].z;
         if (ORTHOGRAPHIC) origin[i] += sideways;
     }
@@ -41,7 +44,9 @@ Hit intersect(Surface s, dvec2 pixelCentre) {
     double t = slope != 0.0lf ? dot(s.plane, s.corner - origin) / slope : 0.0lf;
     dvec3 q = origin + t * direction - s.corner;
     double size = along(s.plane, s.plane);
-    return Hit(t, vec2(dvec2(along(cross(q, s.edge2), s.plane), along(cross(s.edge1, q), s.plane)) / (size != 0.0lf ? size : 1.0lf)));
+    return Hit(t,
+        vec2(dvec2(along(cross(q, s.edge2), s.plane), along(cross(s.edge1, q), s.plane))
+            / (size != 0.0lf ? size : 1.0lf)));
 }
 
 void writeBackground() {
@@ -82,9 +87,12 @@ void main() {
     uint number = id.x - 1u, triangle = id.y;
     Instance instance = instanceAt(number);
 
-#if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
-    ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
-    vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz, p2 = texelFetch(positions, corners.z).xyz;
+#if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) \
+    || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
+    ivec3 corners =
+        int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
+    vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz,
+         p2 = texelFetch(positions, corners.z).xyz;
     Surface s;
     s.meshFromView = meshFromViewAt(number);
     s.corner = dvec3(p0);
@@ -112,7 +120,8 @@ void main() {
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
     // The plane's normal by the winding of the mesh; surfaces have two sides, and we see the one that faces us.
-    vec3 outward = normalize(viewNormal(s.meshFromView, vec3(s.plane / max(max(abs(s.plane.x), abs(s.plane.y)), max(abs(s.plane.z), 1e-300lf)))));
+    vec3 outward = normalize(viewNormal(
+        s.meshFromView, vec3(s.plane / max(max(abs(s.plane.x), abs(s.plane.y)), max(abs(s.plane.z), 1e-300lf)))));
     vec2 through = rayOf(pixel);
     bool fromBehind = ORTHOGRAPHIC ? outward.z < 0.0 : dot(outward, vec3(through, -1.0)) > 0.0;
     vec3 towardsViewer = fromBehind ? -outward : outward;
@@ -121,10 +130,13 @@ void main() {
     write_normal_geometric(vec4(encodeNormal(towardsViewer), 0, 0));
 #endif
 #ifdef WRITES_normal
-    ivec3 at = int(instance.firstNormal) + ivec3(texelFetch(triangleNormals, int(instance.firstTriangle + triangle)).xyz);
+    ivec3 at =
+        int(instance.firstNormal) + ivec3(texelFetch(triangleNormals, int(instance.firstTriangle + triangle)).xyz);
     vec3 n0 = texelFetch(normals, at.x).xyz;
-    vec3 between = n0 + weights.x * (texelFetch(normals, at.y).xyz - n0) + weights.y * (texelFetch(normals, at.z).xyz - n0);
-    // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A back side shows its normals turned.
+    vec3 between =
+        n0 + weights.x * (texelFetch(normals, at.y).xyz - n0) + weights.y * (texelFetch(normals, at.z).xyz - n0);
+    // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A back side shows its
+    // normals turned.
     bool usable = dot(between, between) > 1e-8;
     vec3 turned = viewNormal(s.meshFromView, between) * (fromBehind ? -1.0 : 1.0);
     write_normal(vec4(encodeNormal(usable ? normalize(turned) : towardsViewer), 0, 0));
@@ -157,7 +169,8 @@ void main() {
     uint colorWords = colorWordsOf(number);
     if (look.takesVertexColors && colorWords != NO_WORDS) {
         int first = int(colorWords + 3u * triangle);
-        vec3 c0 = unpackColor(texelFetch(words, first).r), c1 = unpackColor(texelFetch(words, first + 1).r), c2 = unpackColor(texelFetch(words, first + 2).r);
+        vec3 c0 = unpackColor(texelFetch(words, first).r), c1 = unpackColor(texelFetch(words, first + 1).r),
+             c2 = unpackColor(texelFetch(words, first + 2).r);
         look.color *= c0 + weights.x * (c1 - c0) + weights.y * (c2 - c0);
     }
 #endif

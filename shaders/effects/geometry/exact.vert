@@ -5,7 +5,8 @@
 layout(location = 0) in vec3 meshPoint;
 layout(location = 1) in uint instance;
 
-// Instance, counted from 1, and triangle. The provoking vertex, the last one, brings both: see numberByLastVertex in tri_mesh.h.
+// Instance, counted from 1, and triangle. The provoking vertex, the last one, brings both: see numberByLastVertex in
+// tri_mesh.h.
 flat out uvec2 seen;
 #ifdef CUTOUTS
 out vec3 viewPoint;

@@ -20,7 +20,7 @@ flat in uint instanceNumber;
 void main() {
     uint triangle = uint(gl_PrimitiveID);
 #if (defined(WRITES_albedo) && defined(TEXTURED)) || defined(CUTOUTS)
-    vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);   // before any fragment is discarded
+    vec2 uvX = dFdx(uvBetween), uvY = dFdy(uvBetween);  // before any fragment is discarded
 #endif
     Instance instance = instanceAt(instanceNumber);
 #if defined(WRITES_material_id) || defined(WRITES_albedo) || defined(CUTOUTS)
@@ -31,7 +31,8 @@ void main() {
     if (sampleTexture(cut, uvBetween, uvX, uvY).a < 0.5 && cut.hasHoles) discard;
 #endif
 #ifdef WRITES_depth
-    // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from far to near.
+    // w is the depth along the view axis, and the rasterizer interpolates 1/w; orthographic depth falls linearly from
+    // far to near.
     depth = ORTHOGRAPHIC ? view.clipFar - gl_FragCoord.z * (view.clipFar - view.near) : 1.0 / gl_FragCoord.w;
 #endif
 #ifdef WRITES_position
@@ -39,10 +40,13 @@ void main() {
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
     // From the triangle, never from screen derivatives: those mix neighbouring triangles.
-    ivec3 corners = int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
-    vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz, p2 = texelFetch(positions, corners.z).xyz;
+    ivec3 corners =
+        int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
+    vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz,
+         p2 = texelFetch(positions, corners.z).xyz;
     dvec3 plane = cross(dvec3(p1) - dvec3(p0), dvec3(p2) - dvec3(p0));
-    vec3 outward = normalize(viewNormal(meshFromViewAt(instanceNumber), vec3(plane / max(max(abs(plane.x), abs(plane.y)), max(abs(plane.z), 1e-300lf)))));
+    vec3 outward = normalize(viewNormal(meshFromViewAt(instanceNumber),
+        vec3(plane / max(max(abs(plane.x), abs(plane.y)), max(abs(plane.z), 1e-300lf)))));
     bool fromBehind = ORTHOGRAPHIC ? outward.z < 0.0 : dot(outward, viewPoint) > 0.0;
     vec3 towardsViewer = fromBehind ? -outward : outward;
 #endif

@@ -36,6 +36,8 @@ void main() {
 #endif
 #if defined(WRITES_albedo) && defined(VERTEX_COLORS)
     uint colorWords = colorWordsOf(instance);
-    colorBetween = colorWords == NO_WORDS ? vec3(1) : unpackColor(texelFetch(words, int(colorWords) + gl_VertexID - int(firstVertexOf(instance))).r);
+    colorBetween = colorWords == NO_WORDS
+        ? vec3(1)
+        : unpackColor(texelFetch(words, int(colorWords) + gl_VertexID - int(firstVertexOf(instance))).r);
 #endif
 }

@@ -7,7 +7,8 @@ void main() {
     vec4 color = load(albedo, pixel);
     float z = load(depth, pixel).r;
     if (!isBackground(z)) {
-        Lighting lit = lightingAt(pixel, viewPosition(pixel, z), decodeNormal(load(normal, pixel).xy), vec3(0, 0, 1), 0.0, vec2(0));
+        Lighting lit = lightingAt(
+            pixel, viewPosition(pixel, z), decodeNormal(load(normal, pixel).xy), vec3(0, 0, 1), 0.0, vec2(0));
         color.rgb *= lit.diffuse * params.intensity + params.ambient * openness(pixel, params.ao_strength);
     }
     write_result(color);

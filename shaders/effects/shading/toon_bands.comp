@@ -2,8 +2,8 @@
 #include "lib/space.glsl"
 #include "lib/color.glsl"
 
-// An intensity this far below a threshold counts as having reached it: a face lit exactly at a threshold then lies safely inside its band,
-// whatever the last bits of its normal.
+// An intensity this far below a threshold counts as having reached it: a face lit exactly at a threshold then lies
+// safely inside its band, whatever the last bits of its normal.
 const float BAND_BIAS = 1e-4;
 
 #ifdef COLORED_LIGHT
@@ -27,7 +27,9 @@ void main() {
     vec4 color = load(albedo, pixel);
     float intensity = intensityAt(pixel);
     // Intensity changes this much over the wanted width of a band's edge.
-    float width = params.edgeSoftness <= 0.0 ? 0.0 : params.edgeSoftness * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
+    float width = params.edgeSoftness <= 0.0 ? 0.0
+                                             : params.edgeSoftness
+            * length(vec2(slope(pixel, ivec2(1, 0), intensity), slope(pixel, ivec2(0, 1), intensity)));
 
     float steepness = 1.0 / max(width, 1e-6);
     vec3 level = params.bands[0].rgb;

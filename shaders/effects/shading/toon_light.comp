@@ -1,7 +1,7 @@
 // The intensity that toon shading quantizes: (sum of max(0, N·L)·shadow + ambient)·ao + extra ambient + highlights.
 //
-// Writes it in the red channel; with coloured lights the colour of the light, scaled to a largest channel of 1, in rgb and the intensity
-// in alpha.
+// Writes it in the red channel; with coloured lights the colour of the light, scaled to a largest channel of 1, in rgb
+// and the intensity in alpha.
 #include "scene/lighting.glsl"
 
 void main() {
@@ -16,7 +16,8 @@ void main() {
     vec2 highlights = highlightsOf(pixel);
     vec3 eye = params.trueViewDirection ? towardsEye(position) : vec3(0, 0, 1);
     Lighting lit = lightingAt(pixel, position, decodeNormal(load(normal, pixel).xy), eye, highlights.x, vec2(0));
-    vec3 light = (lit.diffuse + params.ambient) * openness(pixel, params.aoStrength) + params.extraAmbient + lit.highlight * (highlights.y * params.specular);
+    vec3 light = (lit.diffuse + params.ambient) * openness(pixel, params.aoStrength) + params.extraAmbient
+        + lit.highlight * (highlights.y * params.specular);
 #ifdef COLORED_LIGHT
     float intensity = max(light.r, max(light.g, light.b));
     write_result(vec4(intensity > 0.0 ? light / intensity : vec3(1), intensity));

@@ -14,7 +14,11 @@
 
 #include "effects/edges/stroke.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace limn {
 enum class DepthTest { plane, projected };
@@ -27,8 +31,8 @@ struct Params {
     PictureLength width = PictureLength::pixels(2);
     Color color{0.0103f, 0.0103f, 0.0103f};  // #1a1a1a
     float opacity = 1;
-    float silhouettes = 1, creases = 1, objects = 0, materials = 0, sections = 2;
-    OptionalColor silhouetteColor, creaseColor, objectColor, materialColor, sectionColor;
+    PerSource<float> weights = standardWeights();
+    PerSource<OptionalColor> colors;
     float step = 0.5f;
     float creaseAngle = 40;
     LineSide side = LineSide::both;
@@ -38,27 +42,26 @@ struct Params {
     float depthThreshold = 0.05f;
 };
 
-constexpr Field kParams[] = {
+template <std::size_t... I>
+constexpr auto weightFields(std::index_sequence<I...>) {
+    constexpr FieldInfo info{.unit = "widths", .min = 0, .max = 100};
+    return std::array{elementField<&Params::weights, I>(kLineSources[I].name, info, kLineSources[I].doc)...};
+}
+
+template <std::size_t... I>
+constexpr auto colorFields(std::index_sequence<I...>) {
+    return std::array{elementField<&Params::colors, I>(kLineSources[I].colorName, {}, kLineSources[I].colorDoc)...};
+}
+
+constexpr auto kSources = std::make_index_sequence<kLineSourceCount>();
+constexpr std::array kLook = {
     field<&Params::width>("width", {.unit = "picture", .min = 0, .max = 1000},
         "Width of the lines: pixels, \"0.35mm\" or \"0.2%\" of the image height."),
     field<&Params::color>("color", "Colour of the lines."),
     field<&Params::opacity>(
         "opacity", {.min = 0, .max = 1}, "How much the lines cover; at 0 they are not even computed."),
-    field<&Params::silhouettes>("silhouettes", {.unit = "widths", .min = 0, .max = 100},
-        "Weight of lines where one surface ends in front of another or of nothing; at 0 there are none."),
-    field<&Params::creases>(
-        "creases", {.unit = "widths", .min = 0, .max = 100}, "Weight of lines where a surface bends."),
-    field<&Params::objects>(
-        "objects", {.unit = "widths", .min = 0, .max = 100}, "Weight of lines where objects touch."),
-    field<&Params::materials>(
-        "materials", {.unit = "widths", .min = 0, .max = 100}, "Weight of lines where materials meet."),
-    field<&Params::sections>(
-        "sections", {.unit = "widths", .min = 0, .max = 100}, "Weight of lines around the cut faces of sections."),
-    field<&Params::silhouetteColor>("silhouette_color", "Colour of those lines, or \"same\" as `color`."),
-    field<&Params::creaseColor>("crease_color", "Colour of lines where a surface bends."),
-    field<&Params::objectColor>("object_color", "Colour of lines where objects touch."),
-    field<&Params::materialColor>("material_color", "Colour of lines where materials meet."),
-    field<&Params::sectionColor>("section_color", "Colour of lines around cut faces."),
+};
+constexpr std::array kRest = {
     field<&Params::step>("step", {.unit = "pixel footprints", .min = 0.05, .max = 1e6},
         "Smallest step between surfaces that is drawn, in widths of a pixel at that depth (depth_test = \"plane\")."),
     field<&Params::creaseAngle>(
@@ -75,6 +78,7 @@ constexpr Field kParams[] = {
     field<&Params::depthThreshold>(
         "depth_threshold", {.min = 0, .max = 1}, "Factor on (1 - depth) (depth_test = \"projected\")."),
 };
+constexpr auto kParams = joinFields(kLook, weightFields(kSources), colorFields(kSources), kRest);
 
 struct Constants {
     float step = 4, cosine = 0.95f, depthThreshold = 0.05f, near = 0.1f, far = 100;
@@ -99,43 +103,45 @@ Constants derive(const Params& params, const View& view) {
     return c;
 }
 
-Stroke strokeOf(const Params& params, const EffectBuilder& graph) {
-    const double width = graph.view().pixels(params.width);
-    const auto style = [&](float weight, const OptionalColor& color) {
-        return LineStyle{width * static_cast<double>(weight), color.otherwise(params.color)};
-    };
-    return {style(params.silhouettes, params.silhouetteColor), style(params.creases, params.creaseColor),
-        style(params.objects, params.objectColor), style(params.materials, params.materialColor),
-        style(graph.scene().sections ? params.sections : 0, params.sectionColor), params.opacity, params.side,
-        static_cast<double>(params.fade), static_cast<double>(params.taper), graph.view().normalized(params.fadeFrom),
-        graph.view().normalized(params.fadeTo)};
+Stroke strokeOf(const Params& params, const View& view, bool hasSections) {
+    Stroke stroke;
+    for (std::size_t i = 0; i < kLineSourceCount; ++i) {
+        if (kLineSources[i].onlyOfSections && !hasSections) continue;
+        stroke.styles[i] = {view.pixels(params.width) * static_cast<double>(params.weights[i]),
+            params.colors[i].otherwise(params.color)};
+    }
+    stroke.opacity = params.opacity;
+    stroke.side = params.side;
+    stroke.fade = static_cast<double>(params.fade);
+    stroke.taper = static_cast<double>(params.taper);
+    stroke.fadeFrom = view.normalized(params.fadeFrom);
+    stroke.fadeTo = view.normalized(params.fadeTo);
+    return stroke;
 }
 
 void build(EffectBuilder& graph, const Params& params) {
-    const Stroke stroke = strokeOf(params, graph);
-    const double widest = std::max({stroke.silhouette.width, stroke.crease.width, stroke.object.width,
-        stroke.material.width, stroke.section.width});
-    if (params.opacity <= 0 || widest <= 0) return;
+    const Stroke stroke = strokeOf(params, graph.view(), graph.scene().sections);
+    if (params.opacity <= 0 || stroke.widest() <= 0) return;
     const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r32ui);
     Pass pass;
     pass.name = "depth_normal" + graph.layerSuffix();
     pass.rate = lineRate(graph);
     pass.reads = {{"depth", graph.read(aov::depth), 1}, {"normalGeometric", graph.read(aov::normalGeometric), 1}};
-    const auto with = [&](bool wanted, const char* define, const char* sampler, const Aov& aov) {
-        if (!wanted) return;
-        pass.defines.emplace_back(define, "");
-        pass.reads.push_back({sampler, graph.read(aov), 1});
-    };
-    if (stroke.silhouette.width > 0) pass.defines.emplace_back("WITH_SILHOUETTES", "");
-    with(stroke.crease.width > 0, "WITH_CREASES", "normal", aov::normal);
-    with(stroke.object.width > 0, "WITH_OBJECTS", "objectId", aov::objectId);
-    with(stroke.material.width > 0, "WITH_MATERIALS", "materialId", aov::materialId);
-    with(graph.scene().lineRecords, "WITH_RECORDS", "lineRecord", aov::lineRecord);
-    if (stroke.section.width > 0) pass.defines.emplace_back("WITH_SECTIONS", "");
+    defineSources(pass);
+    for (std::size_t i = 0; i < kLineSourceCount; ++i) {
+        const LineSource& source = kLineSources[i];
+        if (stroke.styles[i].width <= 0) continue;
+        pass.defines.emplace_back(fmt::format("WITH_{}", source.define), "");
+        if (source.compares) pass.reads.push_back({std::string(source.sampler), graph.read(*source.compares), 1});
+    }
+    if (graph.scene().lineRecords) {
+        pass.defines.emplace_back("WITH_RECORDS", "");
+        pass.reads.push_back({"lineRecord", graph.read(aov::lineRecord), 1});
+        pass.needs = SceneData::positions;  // they stand in the scene's words
+    }
     if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
     pass.writes = {{"result", sides}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
-    if (graph.scene().lineRecords) pass.needs = SceneData::positions;  // they stand in the scene's words
     pass.note = "2 neighbours per pixel";
     graph.add(std::move(pass));
     strokeLines(graph, sides, stroke);

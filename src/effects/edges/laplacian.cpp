@@ -137,10 +137,11 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.params = paramsBlock(kConstants, constants);
         appendWords(pass.params, "chosen", words);
     }
+    defineSources(pass);
     pass.note = "2 neighbours per pixel";
     graph.add(std::move(pass));
     Stroke stroke;
-    stroke.object = {graph.view().pixels(params.width), params.color};
+    stroke.styles[lineSource("OBJECT")] = {graph.view().pixels(params.width), params.color};
     stroke.opacity = params.opacity;
     stroke.side = params.side;
     strokeLines(graph, sides, stroke);

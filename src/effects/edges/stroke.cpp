@@ -10,16 +10,9 @@ namespace limn {
 namespace edges_stroke {
 
 struct Constants {
-    glm::vec4 silhouette{0}, crease{0}, object{0}, material{0}, section{0};
     float opacity = 1;
 };
 constexpr Field kConstants[] = {
-    field<&Constants::silhouette>("silhouette",
-        "Linear colour, and half of the width in pixels, of lines where one surface ends in front of another."),
-    field<&Constants::crease>("crease", "The same where a surface bends."),
-    field<&Constants::object>("object", "The same where objects meet."),
-    field<&Constants::material>("material", "The same where materials meet."),
-    field<&Constants::section>("section", "The same around the cut faces of sections."),
     field<&Constants::opacity>("opacity", "Of all lines."),
 };
 
@@ -47,100 +40,147 @@ glm::vec4 pack(const LineStyle& style) {
 
 }  // namespace edges_stroke
 
-void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
-    using namespace edges_stroke;
-    const bool records = graph.scene().lineRecords;
-    // Lines of one colour, or even of one width, need less sorting. Styles that are not drawn look as any other.
-    std::array<LineStyle, 5> styles{stroke.silhouette, stroke.crease, stroke.object, stroke.material, stroke.section};
-    const LineStyle widest =
-        *std::max_element(styles.begin(), styles.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
-    for (auto& style : styles)
-        if (style.width <= 0) style = widest;
-    const bool oneColor = !records
-        && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style.color == widest.color; });
-    const bool oneLook =
-        !records && std::all_of(styles.begin(), styles.end(), [&](const auto& style) { return style == widest; });
-    // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel beside
-    // the centre of its own.
-    const int window =
-        static_cast<int>(std::ceil((stroke.side == LineSide::both ? widest.width / 2 : widest.width) + 1));
-    const std::string suffix = graph.layerSuffix();
-    const auto pass = [&](std::string name, std::vector<Read> reads, std::vector<Write> writes, std::string note) {
+void defineSources(Pass& pass) {
+    for (std::size_t i = 0; i < kLineSourceCount; ++i)
+        pass.defines.emplace_back(kLineSources[i].define, fmt::format("{}u", i + 1));
+}
+
+namespace edges_stroke {
+
+/// Adds the passes, one step after the other.
+class Strokes {
+public:
+    Strokes(EffectBuilder& graph, const Stroke& stroke)
+        : graph_(graph), stroke_(stroke), suffix_(graph.layerSuffix()), records_(graph.scene().lineRecords) {
+        const auto narrower = [](const auto& a, const auto& b) { return a.width < b.width; };
+        widest_ = *std::max_element(stroke.styles.begin(), stroke.styles.end(), narrower);
+        // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel
+        // beside the centre of its own.
+        const double reach = stroke.side == LineSide::both ? widest_.width / 2 : widest_.width;
+        window_ = static_cast<int>(std::ceil(reach + 1));
+    }
+
+    void draw(ResourceId sides) {
+        findNear(sides);
+        placeCrossings(sides);
+        joinPieces();
+        drawPieces();
+    }
+
+private:
+    Pass pass(const std::string& name, std::vector<Read> reads, std::vector<Write> writes, std::string note) const {
         Pass made;
-        made.name = name + suffix;
-        made.rate = lineRate(graph);
+        made.name = name + suffix_;
+        made.rate = lineRate(graph_);
         made.shader = "effects/edges/" + name;
+        defineSources(made);
         made.reads = std::move(reads);
         made.writes = std::move(writes);
         made.note = std::move(note);
         return made;
-    };
-
-    // Lines cover little of a picture: what follows runs only in the tiles that have some, or lie near those.
-    const ResourceId tiles = graph.image("line_tiles" + suffix, Format::r8, kMaskTile);
-    graph.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles}}, "where there are lines"));
-    const NearConstants nearConstants{(window + kMaskTile - 1) / kMaskTile};
-    const ResourceId near = graph.image("near_lines" + suffix, Format::r8, kMaskTile);
-    Pass spread = pass("near_lines", {{"tiles", tiles, (nearConstants.reach + 1) * kMaskTile}}, {{"result", near}},
-        "where lines matter");
-    spread.params = paramsBlock(kNearConstants, nearConstants);
-    graph.add(std::move(spread));
-    const Read mask{"nearLines", near, kMaskTile};
-
-    const ResourceId crossings = graph.image("line_crossings" + suffix, Format::rg32ui);
-    Pass place = pass("line_places",
-        {{"lineTiles", tiles, kMaskTile}, {"sides", sides}, {"depth", graph.read(aov::depth), 1},
-            {"normalGeometric", graph.read(aov::normalGeometric), 1}},
-        {{"result", crossings}}, "to 1/256 pixel");
-    place.mask = 0;
-    if (const auto visibility = graph.find(aov::visibility)) {
-        place.defines.emplace_back("WITH_TRIANGLES", "");
-        graph.defineSeen(place);
-        place.reads.push_back({"visibility", *visibility, 2});
     }
-    if (records) {
-        place.defines.emplace_back("WITH_RECORDS", "");
-        place.reads.push_back({"lineRecord", graph.read(aov::lineRecord), 1});
-    }
-    place.params = paramsBlock(kPlaceConstants,
-        PlaceConstants{static_cast<float>(stroke.fade), static_cast<float>(stroke.taper),
-            static_cast<float>(stroke.fadeFrom),
-            static_cast<float>(1 / std::max(stroke.fadeTo - stroke.fadeFrom, 1e-6))});
-    place.needs = SceneData::positions;
-    if (graph.find(aov::visibility)) graph.cutHoles(place);
-    graph.add(std::move(place));
 
-    const ResourceId first = graph.image("line_pieces" + suffix, Format::rg32ui),
-                     second = graph.image("line_pieces_beside" + suffix, Format::rg32ui);
-    Pass join = pass(
-        "line_pieces", {mask, {"crossings", crossings, 2}}, {{"first", first}, {"second", second}}, "crossings joined");
-    join.mask = 0;
-    graph.add(std::move(join));
+    /// Lines cover little of a picture: what follows runs only in the tiles that have some, or lie near those.
+    void findNear(ResourceId sides) {
+        tiles_ = graph_.image("line_tiles" + suffix_, Format::r8, kMaskTile);
+        graph_.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles_}}, "where there are lines"));
+        const NearConstants constants{(window_ + kMaskTile - 1) / kMaskTile};
+        near_ = graph_.image("near_lines" + suffix_, Format::r8, kMaskTile);
+        Pass spread = pass("near_lines", {{"tiles", tiles_, (constants.reach + 1) * kMaskTile}}, {{"result", near_}},
+            "where lines matter");
+        spread.params = paramsBlock(kNearConstants, constants);
+        graph_.add(std::move(spread));
+    }
 
-    Pass draw = pass("stroke", {mask, {"first", first, window}, {"second", second, window}}, {},
-        fmt::format("{} cells per pixel near lines", 4 * window * window));
-    draw.defines.emplace_back("WINDOW", std::to_string(window));
-    if (oneColor) draw.defines.emplace_back("ONE_COLOR", "");
-    if (oneLook) draw.defines.emplace_back("ONE_LOOK", "");
-    if (stroke.side != LineSide::both)
-        draw.defines.emplace_back("ONE_SIDE", stroke.side == LineSide::inner ? "1" : "-1");
-    if (records) {
-        draw.defines.emplace_back("WITH_RECORDS", "");
-        draw.needs = SceneData::positions;
+    void placeCrossings(ResourceId sides) {
+        crossings_ = graph_.image("line_crossings" + suffix_, Format::rg32ui);
+        Pass place = pass("line_places",
+            {{"lineTiles", tiles_, kMaskTile}, {"sides", sides}, {"depth", graph_.read(aov::depth), 1},
+                {"normalGeometric", graph_.read(aov::normalGeometric), 1}},
+            {{"result", crossings_}}, "to 1/256 pixel");
+        place.mask = 0;
+        if (const auto visibility = graph_.find(aov::visibility)) {
+            place.defines.emplace_back("WITH_TRIANGLES", "");
+            graph_.defineSeen(place);
+            place.reads.push_back({"visibility", *visibility, 2});
+        }
+        if (records_) {
+            place.defines.emplace_back("WITH_RECORDS", "");
+            place.reads.push_back({"lineRecord", graph_.read(aov::lineRecord), 1});
+        }
+        const double depths = std::max(stroke_.fadeTo - stroke_.fadeFrom, 1e-6);
+        place.params = paramsBlock(kPlaceConstants,
+            PlaceConstants{static_cast<float>(stroke_.fade), static_cast<float>(stroke_.taper),
+                static_cast<float>(stroke_.fadeFrom), static_cast<float>(1 / depths)});
+        place.needs = SceneData::positions;
+        if (graph_.find(aov::visibility)) graph_.cutHoles(place);
+        graph_.add(std::move(place));
     }
-    draw.params = paramsBlock(kConstants,
-        Constants{pack(styles[0]), pack(styles[1]), pack(styles[2]), pack(styles[3]), pack(styles[4]), stroke.opacity});
-    if (const auto below = graph.find(aov::edges)) {
-        // Away from this layer's lines the layers below must stay.
-        draw.reads.push_back({"layersBelow", *below});
-        draw.defines.emplace_back("LAYERS_BELOW", "");
-    } else {
-        draw.mask = 0;
+
+    void joinPieces() {
+        first_ = graph_.image("line_pieces" + suffix_, Format::rg32ui);
+        second_ = graph_.image("line_pieces_beside" + suffix_, Format::rg32ui);
+        Pass join = pass("line_pieces", {mask(), {"crossings", crossings_, 2}},
+            {{"first", first_}, {"second", second_}}, "crossings joined");
+        join.mask = 0;
+        graph_.add(std::move(join));
     }
-    const ResourceId result = graph.image("edges" + suffix, aov::edges.format);
-    draw.writes = {{"result", result}};
-    graph.add(std::move(draw));
-    graph.publish(aov::edges, result);
+
+    void drawPieces() {
+        Pass draw = pass("stroke", {mask(), {"first", first_, window_}, {"second", second_, window_}}, {},
+            fmt::format("{} cells per pixel near lines", 4 * window_ * window_));
+        draw.defines.emplace_back("WINDOW", std::to_string(window_));
+        if (stroke_.side != LineSide::both)
+            draw.defines.emplace_back("ONE_SIDE", stroke_.side == LineSide::inner ? "1" : "-1");
+        if (records_) {
+            draw.defines.emplace_back("WITH_RECORDS", "");
+            draw.needs = SceneData::positions;
+        }
+        addStyles(draw);
+        if (const auto below = graph_.find(aov::edges)) {
+            // Away from this layer's lines the layers below must stay.
+            draw.reads.push_back({"layersBelow", *below});
+            draw.defines.emplace_back("LAYERS_BELOW", "");
+        } else {
+            draw.mask = 0;
+        }
+        const ResourceId result = graph_.image("edges" + suffix_, aov::edges.format);
+        draw.writes = {{"result", result}};
+        graph_.add(std::move(draw));
+        graph_.publish(aov::edges, result);
+    }
+
+    void addStyles(Pass& draw) const {
+        // Lines of one colour, or even of one width, need less sorting. Styles that are not drawn look as any other.
+        PerSource<LineStyle> styles = stroke_.styles;
+        for (auto& style : styles)
+            if (style.width <= 0) style = widest_;
+        const auto all = [&](const auto& is) { return !records_ && std::all_of(styles.begin(), styles.end(), is); };
+        if (all([&](const LineStyle& style) { return style.color == widest_.color; }))
+            draw.defines.emplace_back("ONE_COLOR", "");
+        if (all([&](const LineStyle& style) { return style == widest_; })) draw.defines.emplace_back("ONE_LOOK", "");
+        draw.params = paramsBlock(kConstants, Constants{stroke_.opacity});
+        // Linear colour, and half of the width in pixels, of each source.
+        std::vector<glm::vec4> packed;
+        for (const auto& style : styles) packed.push_back(pack(style));
+        appendVectors(draw.params, "styles", packed);
+    }
+
+    Read mask() const { return {"nearLines", near_, kMaskTile}; }
+
+    EffectBuilder& graph_;
+    const Stroke& stroke_;
+    std::string suffix_;
+    bool records_;
+    LineStyle widest_;
+    int window_ = 1;  ///< pixels: how far around a pixel lines may matter
+    ResourceId tiles_, near_, crossings_, first_, second_;
+};
+
+}  // namespace edges_stroke
+
+void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
+    edges_stroke::Strokes(graph, stroke).draw(sides);
 }
 
 }  // namespace limn

@@ -1,0 +1,57 @@
+// Why there is a line: one row for each source. Parameters of techniques, the numbers that shaders know sources by, the
+// images that are compared, and the styles that strokes are drawn in all come from these rows.
+#pragma once
+
+#include "picture/aov.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace limn {
+
+struct LineSource {
+    std::string_view name;       ///< of the parameter that weighs its lines
+    std::string_view colorName;  ///< of the parameter that colours them
+    std::string_view define;     ///< its number in shaders; WITH_ before it says that such lines are looked for
+    float weight;                ///< of its lines, if nobody says: in widths
+    std::string_view doc, colorDoc;
+    std::string_view sampler;       ///< how shaders call the image that is compared, beyond depth and face
+    const Aov* compares = nullptr;  ///< that image; null: depth and face are enough
+    bool onlyOfSections = false;    ///< there is none where nothing is cut open
+};
+
+/// Of several reasons the last that holds counts, but for silhouettes, which count before all but sections.
+inline constexpr LineSource kLineSources[] = {
+    {"silhouettes", "silhouette_color", "SILHOUETTE", 1,
+        "Weight of lines where one surface ends in front of another or of nothing; at 0 there are none.",
+        "Colour of those lines, or \"same\" as `color`.", ""},
+    {"creases", "crease_color", "CREASE", 1, "Weight of lines where a surface bends.",
+        "Colour of lines where a surface bends.", "normal", &aov::normal},
+    {"objects", "object_color", "OBJECT", 0, "Weight of lines where objects touch.",
+        "Colour of lines where objects touch.", "objectId", &aov::objectId},
+    {"materials", "material_color", "MATERIAL", 0, "Weight of lines where materials meet.",
+        "Colour of lines where materials meet.", "materialId", &aov::materialId},
+    {"sections", "section_color", "SECTION", 2, "Weight of lines around the cut faces of sections.",
+        "Colour of lines around cut faces.", "", nullptr, true},
+};
+inline constexpr std::size_t kLineSourceCount = std::size(kLineSources);
+
+/// The row of a source by its number in shaders, which counts from 1; 0 is no line.
+constexpr std::size_t lineSource(std::string_view define) {
+    for (std::size_t i = 0; i < kLineSourceCount; ++i)
+        if (kLineSources[i].define == define) return i;
+    throw "no such source of lines";
+}
+
+/// One value for each source.
+template <class T>
+using PerSource = std::array<T, kLineSourceCount>;
+
+constexpr PerSource<float> standardWeights() {
+    PerSource<float> weights{};
+    for (std::size_t i = 0; i < kLineSourceCount; ++i) weights[i] = kLineSources[i].weight;
+    return weights;
+}
+
+}  // namespace limn
