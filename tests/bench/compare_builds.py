@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 """Compares the pixels of two builds: python3 tests/bench/compare_builds.py OLD NEW [--only TEXT] [--keep DIR]
 
-OLD and NEW are limn programs. Both draw every config of render_configs, every panel of render_configs/sheets, and a test
-picture of each technique in each of its presets, whole and in tiles, of 8 and of 3 samples. Files are opened without any code of limn's: PNG and EXR by the few lines below, JPEG and TIFF
-by their bytes. Prints what differs and by how much; the exit code is 1 where anything does.
+OLD and NEW are limn programs. Both draw every config of render_configs, every panel of render_configs/sheets, and a
+test picture of each technique in each of its presets, whole and in tiles, of 8 and of 3 samples. Files are opened
+without any code of limn's: PNG and EXR by the few lines below, JPEG and TIFF by their bytes. Prints what differs and by
+how much; the exit code is 1 where anything does.
 
-Pictures of a number of samples that is no power of two may differ in the last bits (--ulps, in units of the last place of
-the larger value).
+Pictures of a number of samples that is no power of two may differ in the last bits (--ulps, in units of the last place
+of the larger value).
 """
 
 import argparse
 import json
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -21,6 +23,7 @@ import tomllib
 import zlib
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
 
 def png_pixels(data):
     """What PNG decoders see: the header and the inflated rows."""
@@ -147,7 +150,9 @@ def difference(old, new, allowed):
                 continue
             farthest = max(ulps(kind, p, q) for p, q in pairs)
             if farthest > allowed:
-                worst.append("%s: %d pixels, up to %d ulps, %g" % (name, len(pairs), farthest, max(abs(p - q) for p, q in pairs)))
+                worst.append(
+                    "%s: %d pixels, up to %d ulps, %g" % (name, len(pairs), farthest, max(abs(p - q) for p, q in pairs))
+                )
         return "; ".join(worst) or None
     if extension == ".png":
         x, y = png_pixels(a)[""], png_pixels(b)[""]
@@ -173,7 +178,9 @@ def sheets(folder):
         for number, panel in enumerate(sheet["panel"]):
             text = panel["config"] + "\n" + sheet.get("common", "")
             for key in ("scene", "include"):
-                text = re.sub(key + r' = (["\'])(\.[^"\']*)', lambda m: "%s = %s%s" % (key, m[1], os.path.join(root, m[2])), text)
+                text = re.sub(
+                    key + r' = (["\'])(\.[^"\']*)', lambda m: "%s = %s%s" % (key, m[1], os.path.join(root, m[2])), text
+                )
             path = os.path.join(folder, "sheet_%s_%d.toml" % (name[:-5], number))
             open(path, "w").write(text)
             yield os.path.basename(path)[:-5], path, 0
@@ -208,7 +215,12 @@ def techniques(old, folder):
             else:
                 continue
             for samples, tile in ((8, 0), (3, 64)):
-                text = 'scene = "%s"\n%s[image]\nsize = [200, 120]\nsamples = %d\ntile = %d\n' % (scene, config, samples, tile)
+                text = 'scene = "%s"\n%s[image]\nsize = [200, 120]\nsamples = %d\ntile = %d\n' % (
+                    scene,
+                    config,
+                    samples,
+                    tile,
+                )
                 text += "[output]\naovs = %s\n" % json.dumps(aovs)
                 name = "_".join(x for x in (t["slot"], t["name"], preset, str(samples)) if x)
                 path = os.path.join(folder, name + ".toml")
@@ -230,7 +242,9 @@ def main():
     parser.add_argument("old")
     parser.add_argument("new")
     parser.add_argument("--only", default="", help="names that contain this")
-    parser.add_argument("--keep", help="keep what was drawn in this folder; pictures of OLD that are there are not drawn again")
+    parser.add_argument(
+        "--keep", help="keep what was drawn in this folder; pictures of OLD that are there are not drawn again"
+    )
     parser.add_argument("--ulps", type=int, default=1, help="allowed per sample where their number is no power of two")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
@@ -241,11 +255,17 @@ def main():
         for name, config, samples in cases:
             if options.only not in name:
                 continue
-            settings = ["output.path=%s.exr" % name] if name.startswith(("ao_", "filter_", "edges_", "shading_", "geometry_")) else []
+            settings = (
+                ["output.path=%s.exr" % name]
+                if name.startswith(("ao_", "filter_", "edges_", "shading_", "geometry_"))
+                else []
+            )
             outputs = []
             for side, program in (("old", options.old), ("new", options.new)):
                 folder = os.path.join(kept, side, name)
-                if side == "new" or not os.path.isdir(folder):
+                if side == "new":
+                    shutil.rmtree(folder, ignore_errors=True)
+                if not os.path.isdir(folder):
                     code, said = draw(program, config, folder, settings)
                     if code:
                         print("%s: %s ends with %d: %s" % (name, side, code, said))
@@ -257,7 +277,9 @@ def main():
                 print("%s: files %s and %s" % (name, sorted(a), sorted(b)))
             for file in sorted(a & b):
                 files += 1
-                what = difference(os.path.join(outputs[0], file), os.path.join(outputs[1], file), samples * options.ulps)
+                what = difference(
+                    os.path.join(outputs[0], file), os.path.join(outputs[1], file), samples * options.ulps
+                )
                 if what:
                     different += 1
                     print("%s/%s: %s" % (name, file, what))

@@ -2,7 +2,8 @@
 
   lines FOLDER          black lines on white of every NAME.obj and NAME.camera in a folder, to NAME.other.png
   scene SCENE.toml CAMERA WIDTH HEIGHT OUT.png
-                        a scene of limn's; prints RENDER_S, the seconds of a second render, start-up and loading excluded
+                        a scene of limn's; prints RENDER_S, the seconds of a second render, start-up and loading
+                        excluded
 """
 
 import math
@@ -13,7 +14,7 @@ import time
 import bpy
 from mathutils import Euler, Matrix, Vector
 
-UP = Matrix.Rotation(math.radians(90), 4, "X")   # y up to z up
+UP = Matrix.Rotation(math.radians(90), 4, "X")  # y up to z up
 
 
 def freestyle(thickness):
@@ -22,7 +23,7 @@ def freestyle(thickness):
     layer = bpy.context.view_layer
     layer.use_freestyle = True
     settings = layer.freestyle_settings
-    settings.crease_angle = math.radians(140)   # as limn's 40 degrees, measured the other way round
+    settings.crease_angle = math.radians(140)  # as limn's 40 degrees, measured the other way round
     lines = settings.linesets[0] if settings.linesets else settings.linesets.new("lines")
     for kind in ("silhouette", "border", "crease"):
         setattr(lines, "select_" + kind, True)
@@ -64,7 +65,7 @@ def load(path):
     return [o for o in bpy.data.objects if o not in before]
 
 
-mode, arguments = sys.argv[sys.argv.index("--") + 1], sys.argv[sys.argv.index("--") + 2:]
+mode, arguments = sys.argv[sys.argv.index("--") + 1], sys.argv[sys.argv.index("--") + 2 :]
 if mode == "lines":
     for name in sorted(os.listdir(arguments[0])):
         if not name.endswith(".camera"):
@@ -88,24 +89,42 @@ if mode == "lines":
         bpy.ops.render.render(write_still=True)
 else:
     import tomllib
+
     path, wanted, size, out = arguments[0], arguments[1], [int(arguments[2]), int(arguments[3])], arguments[4]
     scene = prepare(size)
     description = tomllib.load(open(path, "rb"))
-    meshes = {m["name"]: [o.data for o in load(os.path.join(os.path.dirname(path), m["file"]))] for m in description["mesh"]}
+    meshes = {
+        m["name"]: [o.data for o in load(os.path.join(os.path.dirname(path), m["file"]))] for m in description["mesh"]
+    }
     for o in list(bpy.data.objects):
         bpy.data.objects.remove(o)
     for i in description["instance"]:
         turn = Euler([math.radians(a) for a in i.get("rotate", (0, 0, 0))], "XYZ").to_matrix().to_4x4()
-        place = UP @ Matrix.Translation(i.get("translate", (0, 0, 0))) @ turn @ Matrix.Diagonal((*i.get("scale", (1, 1, 1)), 1))
+        place = (
+            UP
+            @ Matrix.Translation(i.get("translate", (0, 0, 0)))
+            @ turn
+            @ Matrix.Diagonal((*i.get("scale", (1, 1, 1)), 1))
+        )
         for data in meshes[i["mesh"]]:
             o = bpy.data.objects.new(data.name, data)
             scene.collection.objects.link(o)
             o.matrix_world = place
     c = next(c for c in description["camera"] if c["name"] == wanted)
-    data = camera(c["position"], c["look_at"], 2 * math.atan(18 / c.get("focal_length", 35)), c.get("orthographic_height", 0), size)
+    data = camera(
+        c["position"],
+        c["look_at"],
+        2 * math.atan(18 / c.get("focal_length", 35)),
+        c.get("orthographic_height", 0),
+        size,
+    )
     data.shift_x, data.shift_y = c.get("shift", (0, 0))
     freestyle(1.3)
-    scene.display.shading.show_cavity, scene.display.shading.cavity_type, scene.display.shading.color_type = True, "BOTH", "MATERIAL"
+    scene.display.shading.show_cavity, scene.display.shading.cavity_type, scene.display.shading.color_type = (
+        True,
+        "BOTH",
+        "MATERIAL",
+    )
     scene.render.filepath = out
     bpy.ops.render.render()
     start = time.time()

@@ -3,9 +3,9 @@
 
     tests/bench/furniture.py LIMN OUT.log [--sample N] [--jobs N]
 
-The models are the OBJ files of Debian's sweethome3d-furniture. LIMN draws each at Catmull-Clark level 2 with toon shading, ambient
-occlusion and outlines, and is strict: a value that is not finite fails. Writes a line per model and a table of outcomes; exits 1 when a
-process crashed, hung for two minutes, or met a value that is not finite.
+The models are the OBJ files of Debian's sweethome3d-furniture. LIMN draws each at Catmull-Clark level 2 with toon
+shading, ambient occlusion and outlines, and is strict: a value that is not finite fails. Writes a line per model and a
+table of outcomes; exits 1 when a process crashed, hung for two minutes, or met a value that is not finite.
 """
 
 import argparse
@@ -45,7 +45,12 @@ def draw(limn, model, work):
         file.write(CONFIG.format(scene=stem + ".scene.toml", picture=stem + ".exr"))
     start = time.monotonic()
     try:
-        run = subprocess.run([limn, "render", "--strict", "--quiet", stem + ".toml"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=120)
+        run = subprocess.run(
+            [limn, "render", "--strict", "--quiet", stem + ".toml"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            timeout=120,
+        )
         code, errors = run.returncode, run.stderr.decode("utf-8", "replace")
     except subprocess.TimeoutExpired:
         code, errors = None, ""
@@ -76,7 +81,7 @@ def main():
     archives = sorted(glob.glob(FOLDER + "/*.sh3f"))
     if not archives:
         print("the package sweethome3d-furniture is not installed")
-        sys.exit(77)   # ctest: skipped
+        sys.exit(77)  # ctest: skipped
     with tempfile.TemporaryDirectory() as work:
         models = []
         for archive in archives:
@@ -89,11 +94,24 @@ def main():
             models = models[:: max(1, len(models) // arguments.sample)][: arguments.sample]
         lines, counts = [], {}
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            for model, (outcome, code, seconds, complaint) in zip(models, pool.map(lambda m: draw(arguments.limn, m, work), models)):
+            for model, (outcome, code, seconds, complaint) in zip(
+                models, pool.map(lambda m: draw(arguments.limn, m, work), models)
+            ):
                 counts[outcome] = counts.get(outcome, 0) + 1
-                lines.append("%-10s %4s  %s%s" % (outcome, code, os.path.relpath(model, work), "  " + complaint.replace(work, "") if complaint else ""))
+                lines.append(
+                    "%-10s %4s  %s%s"
+                    % (
+                        outcome,
+                        code,
+                        os.path.relpath(model, work),
+                        "  " + complaint.replace(work, "") if complaint else "",
+                    )
+                )
     with open(arguments.log, "w") as log:
-        log.write("# tests/bench/furniture.py LIMN %s%s\n" % (os.path.basename(arguments.log), " --sample %d" % arguments.sample if arguments.sample else ""))
+        log.write(
+            "# tests/bench/furniture.py LIMN %s%s\n"
+            % (os.path.basename(arguments.log), " --sample %d" % arguments.sample if arguments.sample else "")
+        )
         log.write("# limn render --strict, Catmull-Clark level 2, each model in its own process\n#\n")
         for outcome in ("drawn", "refused", "crashed", "hung", "not finite"):
             log.write("# %-10s %d\n" % (outcome, counts.get(outcome, 0)))

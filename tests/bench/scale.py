@@ -18,7 +18,20 @@ def main():
     for level in levels:
         with tempfile.TemporaryDirectory() as folder:
             stats = os.path.join(folder, "stats.json")
-            command = [limn, "--quiet", "render", cage, "--subdivide", str(level), "--set", "image.samples=1", "--output", os.path.join(folder, "picture.png"), "--stats", stats]
+            command = [
+                limn,
+                "--quiet",
+                "render",
+                cage,
+                "--subdivide",
+                str(level),
+                "--set",
+                "image.samples=1",
+                "--output",
+                os.path.join(folder, "picture.png"),
+                "--stats",
+                stats,
+            ]
             child = os.fork()
             if child == 0:
                 os.execvp(command[0], command)
@@ -28,8 +41,19 @@ def main():
             frame = json.load(open(stats))[0]
         if names is None:
             names = list(frame["parts"])
-            print("%12s %10s %10s  %s" % ("triangles", "peak MiB", "total ms", "  ".join("%s" % name for name in names)))
-        print("%12d %10.0f %10.0f  %s" % (faces * 2 * 4**level, usage.ru_maxrss / 1024, frame["total"], "  ".join("%*.1f" % (len(name), frame["parts"].get(name, 0)) for name in names)), flush=True)
+            print(
+                "%12s %10s %10s  %s" % ("triangles", "peak MiB", "total ms", "  ".join("%s" % name for name in names))
+            )
+        print(
+            "%12d %10.0f %10.0f  %s"
+            % (
+                faces * 2 * 4**level,
+                usage.ru_maxrss / 1024,
+                frame["total"],
+                "  ".join("%*.1f" % (len(name), frame["parts"].get(name, 0)) for name in names),
+            ),
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -71,15 +71,20 @@ scene.camera = camera
 
 exporter.export(bpy.context, out, animated=True)
 
-# One line per frame and object: its matrix, row by row; then the camera's place and lens, and the widest x of what bends.
+# One line per frame and object: its matrix, row by row; then the camera's place and lens, and the widest x of what
+# bends.
 with open(os.path.join(out, "truth.txt"), "w") as file:
     for frame in range(scene.frame_start, scene.frame_end + 1):
         scene.frame_set(frame)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         for name in ("mover", "rigid", "bending", "still", "child"):
             matrix = scene.objects[name].evaluated_get(depsgraph).matrix_world
-            file.write("%d %s %s\n" % (frame, name, " ".join("%.9g" % matrix[r][c] for r in range(4) for c in range(4))))
+            file.write(
+                "%d %s %s\n" % (frame, name, " ".join("%.9g" % matrix[r][c] for r in range(4) for c in range(4)))
+            )
         eye = scene.objects["camera"].evaluated_get(depsgraph)
-        file.write("%d camera %.9g %.9g %.9g %.9g\n" % ((frame,) + tuple(eye.matrix_world.translation) + (eye.data.lens,)))
+        file.write(
+            "%d camera %.9g %.9g %.9g %.9g\n" % ((frame,) + tuple(eye.matrix_world.translation) + (eye.data.lens,))
+        )
         mesh = scene.objects["bending"].evaluated_get(depsgraph).to_mesh()
         file.write("%d shape %.9g\n" % (frame, max(v.co.x for v in mesh.vertices)))

@@ -8,7 +8,7 @@ import sys
 
 import bpy
 
-exporter_path, out = sys.argv[sys.argv.index("--") + 1:]
+exporter_path, out = sys.argv[sys.argv.index("--") + 1 :]
 spec = importlib.util.spec_from_file_location("limn_export", exporter_path)
 exporter = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(exporter)

@@ -24,9 +24,9 @@ def add(name, data, matrix=Matrix.Identity(4)):
 
 def subsurf(obj, limit, level=2, **settings):
     modifier = obj.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels, modifier.render_levels = 0, level     # what is on the screen must not matter
+    modifier.levels, modifier.render_levels = 0, level  # what is on the screen must not matter
     modifier.use_limit_surface = limit
-    modifier.quality = 10        # Blender too stops short of the limit near creases, unless told otherwise
+    modifier.quality = 10  # Blender too stops short of the limit near creases, unless told otherwise
     for key, value in settings.items():
         setattr(modifier, key, value)
     return modifier
@@ -43,7 +43,7 @@ def mesh_from(name, build, uvs=True):
         layer = mesh.uv_layers.new(name="UVMap")
         for polygon in mesh.polygons:
             for k, corner in enumerate(polygon.loop_indices):
-                if polygon.index % 3 == 0:      # an island that follows the positions, so that some edges are no seams
+                if polygon.index % 3 == 0:  # an island that follows the positions, so that some edges are no seams
                     co = mesh.vertices[mesh.loops[corner].vertex_index].co
                     layer.data[corner].uv = (co.x * 0.25 + co.z * 0.1, co.y * 0.25 + co.z * 0.07)
                 else:
@@ -85,12 +85,18 @@ for limit in (False, True):
     shift = 12.0 if limit else 0.0
     obj = add("creased" + suffix, cube, Matrix.Translation((0, shift, 0)) @ Euler((0.3, 0.2, 0.9)).to_matrix().to_4x4())
     subsurf(obj, limit)
-    obj = add("ngons" + suffix, mesh_from("Ngons" + suffix, ngons), Matrix.Translation((4, shift, 0)) @ Matrix.Diagonal((1, 1.4, 0.8, 1)))
+    obj = add(
+        "ngons" + suffix,
+        mesh_from("Ngons" + suffix, ngons),
+        Matrix.Translation((4, shift, 0)) @ Matrix.Diagonal((1, 1.4, 0.8, 1)),
+    )
     subsurf(obj, limit)
     obj = add("sheet" + suffix, mesh_from("Sheet" + suffix, sheet), Matrix.Translation((-4, shift, 0)))
     subsurf(obj, limit, boundary_smooth="ALL", uv_smooth="PRESERVE_CORNERS")
     # Mirrored and arrayed before it is subdivided: creases survive.
-    half = mesh_from("Half" + suffix, lambda bm: bmesh.ops.create_cube(bm, size=1, matrix=Matrix.Translation((0.9, 0, 0))))
+    half = mesh_from(
+        "Half" + suffix, lambda bm: bmesh.ops.create_cube(bm, size=1, matrix=Matrix.Translation((0.9, 0, 0)))
+    )
     for index, edge in enumerate(half.edges):
         edge.crease = 0.7 if index % 4 == 0 else 0
     obj = add("mirrored" + suffix, half, Matrix.Translation((8, shift, 0)))
@@ -102,9 +108,13 @@ for limit in (False, True):
 
 # Instances of a collection, one of them mirrored.
 group = bpy.data.collections.new("Group")
-part = bpy.data.objects.new("part", mesh_from("Part", lambda bm: bmesh.ops.create_icosphere(bm, subdivisions=1, radius=0.8)))
+part = bpy.data.objects.new(
+    "part", mesh_from("Part", lambda bm: bmesh.ops.create_icosphere(bm, subdivisions=1, radius=0.8))
+)
 group.objects.link(part)
-for index, matrix in enumerate((Matrix.Translation((0, 5, 2)), Matrix.Translation((3, 6, 0)) @ Matrix.Diagonal((-1, 1, 2, 1)))):
+for index, matrix in enumerate(
+    (Matrix.Translation((0, 5, 2)), Matrix.Translation((3, 6, 0)) @ Matrix.Diagonal((-1, 1, 2, 1)))
+):
     empty = add("instance%d" % index, None, matrix)
     empty.instance_type, empty.instance_collection = "COLLECTION", group
 
@@ -166,7 +176,13 @@ add("foliage", foliage, Matrix.Translation((0, 12, -3)) @ Matrix.Diagonal((0.01,
 
 # Copies that differ in the last bit, as those of objects that Blender turned do, and by more.
 for index, factor in enumerate((1, 1 + 1e-7, 1 + 1e-5)):
-    twin = add("twin%d" % index, mesh_from("Twin%d" % index, lambda bm: bmesh.ops.create_icosphere(bm, subdivisions=1, radius=0.7 * factor), uvs=False), Matrix.Translation((0, 12, -3.5)) @ Matrix.Diagonal((0.01, 0.01, 0.01, 1)))
+    twin = add(
+        "twin%d" % index,
+        mesh_from(
+            "Twin%d" % index, lambda bm: bmesh.ops.create_icosphere(bm, subdivisions=1, radius=0.7 * factor), uvs=False
+        ),
+        Matrix.Translation((0, 12, -3.5)) @ Matrix.Diagonal((0.01, 0.01, 0.01, 1)),
+    )
     subsurf(twin, False)
 
 inked = bpy.data.materials.new("inked")
@@ -193,7 +209,16 @@ for obj in scene.objects:
         for item in layer.data if layer else []:
             file.write("vt %.9g %.9g\n" % tuple(item.uv))
         for polygon in mesh.polygons:
-            file.write("f " + " ".join(("%d/%d" % (mesh.loops[c].vertex_index + 1, c + 1)) if layer else str(mesh.loops[c].vertex_index + 1) for c in polygon.loop_indices) + "\n")
+            file.write(
+                "f "
+                + " ".join(
+                    ("%d/%d" % (mesh.loops[c].vertex_index + 1, c + 1))
+                    if layer
+                    else str(mesh.loops[c].vertex_index + 1)
+                    for c in polygon.loop_indices
+                )
+                + "\n"
+            )
 
 # Where Blender's own renderer sees anything.
 shown.hide_viewport = False

@@ -1,94 +1,14 @@
 // What nothing asks for costs nothing: counted at the GL entry points, not from our own bookkeeping.
 
+#include "cost/counting.h"
 #include "render/report.h"
 #include "support/bench.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace limn::test {
 namespace {
-
-/// What was asked of GL.
-struct Counts {
-    int draws = 0, dispatches = 0, programs = 0, textures = 0, framebuffers = 0;
-    std::uint64_t textureBytes = 0, bufferBytes = 0;
-    bool operator==(const Counts&) const = default;
-};
-Counts counts;
-
-decltype(epoxy_glDrawArrays) realDrawArrays;
-decltype(epoxy_glMultiDrawElementsIndirect) realMultiDraw;
-decltype(epoxy_glDispatchCompute) realDispatch;
-decltype(epoxy_glTextureStorage2D) realTextureStorage;
-decltype(epoxy_glNamedBufferStorage) realBufferStorage;
-decltype(epoxy_glUseProgram) realUseProgram;
-decltype(epoxy_glCreateFramebuffers) realCreateFramebuffers;
-
-std::uint64_t bytesOf(GLenum format) {
-    switch (format) {
-        case GL_RG32UI:
-        case GL_RG32F:
-        case GL_RGBA16F: return 8;
-        case GL_RGBA32F: return 16;
-        default: return 4;
-    }
-}
-
-/// Counts while it lives.
-class Counting {
-public:
-    Counting() {
-        counts = {};
-        realDrawArrays = epoxy_glDrawArrays;
-        epoxy_glDrawArrays = [](GLenum mode, GLint first, GLsizei count) {
-            ++counts.draws;
-            realDrawArrays(mode, first, count);
-        };
-        realMultiDraw = epoxy_glMultiDrawElementsIndirect;
-        epoxy_glMultiDrawElementsIndirect = [](GLenum mode, GLenum type, const void* indirect, GLsizei count,
-                                                GLsizei stride) {
-            ++counts.draws;
-            realMultiDraw(mode, type, indirect, count, stride);
-        };
-        realDispatch = epoxy_glDispatchCompute;
-        epoxy_glDispatchCompute = [](GLuint x, GLuint y, GLuint z) {
-            ++counts.dispatches;
-            realDispatch(x, y, z);
-        };
-        realTextureStorage = epoxy_glTextureStorage2D;
-        epoxy_glTextureStorage2D = [](GLuint id, GLsizei levels, GLenum format, GLsizei w, GLsizei h) {
-            ++counts.textures;
-            counts.textureBytes += bytesOf(format) * static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
-            realTextureStorage(id, levels, format, w, h);
-        };
-        realBufferStorage = epoxy_glNamedBufferStorage;
-        epoxy_glNamedBufferStorage = [](GLuint id, GLsizeiptr size, const void* data, GLbitfield flags) {
-            counts.bufferBytes += static_cast<std::uint64_t>(size);
-            realBufferStorage(id, size, data, flags);
-        };
-        realUseProgram = epoxy_glUseProgram;
-        epoxy_glUseProgram = [](GLuint id) {
-            ++counts.programs;
-            realUseProgram(id);
-        };
-        realCreateFramebuffers = epoxy_glCreateFramebuffers;
-        epoxy_glCreateFramebuffers = [](GLsizei n, GLuint* ids) {
-            counts.framebuffers += n;
-            realCreateFramebuffers(n, ids);
-        };
-    }
-    ~Counting() {
-        epoxy_glDrawArrays = realDrawArrays;
-        epoxy_glMultiDrawElementsIndirect = realMultiDraw;
-        epoxy_glDispatchCompute = realDispatch;
-        epoxy_glTextureStorage2D = realTextureStorage;
-        epoxy_glNamedBufferStorage = realBufferStorage;
-        epoxy_glUseProgram = realUseProgram;
-        epoxy_glCreateFramebuffers = realCreateFramebuffers;
-    }
-};
 
 const std::string kScene =
     "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[camera]]\nposition = [3, 4, 6]\nlook_at = [0, 0.5, "
@@ -122,7 +42,7 @@ Drawn run(const std::string& config, const std::string& scene = kScene) {
     const RenderConfig parsed = makeConfig(kBase + config);
     const Counting counting;
     const RenderedFrame frame = fresh.render(parsed, loaded, 1, {});
-    return {counts, frame.layers.front().image.pixels};
+    return {counts(), frame.layers.front().image.pixels};
 }
 
 TEST(Cost, anEffectThatNothingReadsCostsExactlyNothing) {

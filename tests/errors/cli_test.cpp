@@ -80,7 +80,7 @@ TEST_F(Errors, wordsAndNumbers) {
     expect("render config.toml --crop 60,40,10,10", 64, "does not lie in the picture");
     expect("render config.toml --frames 1:5", 64, "list of frames");
     expect("render config.toml --frames 1-3", 64, "####");
-    expect("render config.toml --output picture.bmp", 64, ".png, .jpg, .tif or .exr");
+    expect("render config.toml --output picture.bmp", 64, ".exr, .jpg, .png or .tif");
     EXPECT_EQ(run("render config.toml --device nonsense").exitCode, 69) << "with a line for each device";
     expect("techniques nonsense", 64, "there is no technique");
 }
@@ -170,7 +170,7 @@ TEST_F(Errors, aFileCutOffAnywhereIsNoticed) {
         layer.image.pixels[i] = static_cast<float>((i * 2654435761u >> 8) % 1000) / 1000;
     for (const char* format : {"png", "jpg", "tif", "exr"}) {
         const auto path = folder.path() / (std::string("p.") + format);
-        const auto encoded = encodeImage(*fileFormat(path), {&layer, 1}, {{"Software", "test"}}, {});
+        const auto encoded = encodeImage(*imageFormat(path), {&layer, 1}, {{"Software", "test"}}, {});
         ASSERT_GT(encoded.size(), 500u);
         int silent = 0, wrongCode = 0, damaged = 0;
         for (int i = 0; i < 1000; ++i) {
@@ -200,7 +200,11 @@ TEST_F(Errors, aFileCutOffAnywhereIsNoticed) {
 }
 
 TEST_F(Errors, theSameInputGivesTheSameBytes) {
-    write("all.toml", kConfig + "aovs = [\"beauty\", \"depth\", \"normal\", \"object_id\", \"ambient_occlusion\"]\n[shading]\ntechnique = \"toon\"\n[ao]\ntechnique = \"toon_ssao\"\n[[edges]]\ntechnique = \"depth_normal\"\n");
+    write("all.toml",
+        kConfig
+            + "aovs = [\"beauty\", \"depth\", \"normal\", \"object_id\", \"ambient_occlusion\"]\n"
+              "[shading]\ntechnique = \"toon\"\n[ao]\ntechnique = \"toon_ssao\"\n"
+              "[[edges]]\ntechnique = \"depth_normal\"\n");
     write("m.obj", mixedObj());
     const auto draw = [&](const std::string& arguments, const std::string& environment, const std::string& file) {
         const RunResult r = run(arguments, environment);

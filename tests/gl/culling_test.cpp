@@ -69,7 +69,8 @@ TEST(Culling, changesNoBit) {
             {"samples = 1", "samples = 4", "samples = 1\ntile = 64", "samples = 1\nsize = [33, 21]"}) {
             const std::string size =
                 std::string(image).find("size = ") == std::string::npos ? "size = [220, 160]\n" : "";
-            const RenderConfig config = makeConfig("[image]\n" + size + image + "\n[shading]\ntechnique = 'lambert'\n[output]\naovs = ['beauty', 'depth', 'normal_geometric', 'object_id']\n");
+            const RenderConfig config = makeConfig("[image]\n" + size + image + "\n[shading]\n"
+                "technique = 'lambert'\n[output]\naovs = ['beauty', 'depth', 'normal_geometric', 'object_id']\n");
             const Picture whole = draw(config, few), culled = draw(config, many);
             std::size_t seen = 0;
             for (const auto& layer : whole.frame.layers) {

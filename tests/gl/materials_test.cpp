@@ -49,7 +49,8 @@ TEST(VertexColours, areLinearBetweenTheCorners) {
 }
 
 TEST(VertexColours, tintTheMaterialThatWantsThem) {
-    const std::string scene = kFront + "[[mesh]]\nname = 't'\nfile = 't.obj'\n[[material]]\nname = 'grey'\ncolor = '#bcbcbc'\n{}\n[[instance]]\nmesh = 't'\nmaterial = 'grey'\n";
+    const std::string scene = kFront + "[[mesh]]\nname = 't'\nfile = 't.obj'\n[[material]]\nname = 'grey'\n"
+        "color = '#bcbcbc'\n{}\n[[instance]]\nmesh = 't'\nmaterial = 'grey'\n";
     const std::string half = "v -9 -9 0 0.5 0.5 0.5\nv 9 -9 0 0.5 0.5 0.5\nv 0 9 0 0.5 0.5 0.5\nf 1 2 3\n";
     const auto albedo = [&](const char* line) {
         return *draw(config("'albedo'"), makeScene(fmt::format(fmt::runtime(scene), line), {{"t.obj", half}}))
@@ -75,7 +76,9 @@ protected:
         replaceFile(folder_.path() / "wall.obj", quadObj({-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}));
         replaceFile(folder_.path() / "card.obj",
             "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
-        std::string toml = camera + "[[light]]\ndirection = [1, 0, -1]\nshadow = { resolution = 1024 }\n[[mesh]]\nname = 'wall'\nfile = 'wall.obj'\n[[mesh]]\nname = 'card'\nfile = 'card.obj'\n[[material]]\nname = 'card'\ncolor = '#ff0000'\n" + line + "\n[[instance]]\nmesh = 'wall'\n";
+        std::string toml = camera + "[[light]]\ndirection = [1, 0, -1]\nshadow = { resolution = 1024 }\n"
+            "[[mesh]]\nname = 'wall'\nfile = 'wall.obj'\n[[mesh]]\nname = 'card'\nfile = 'card.obj'\n"
+            "[[material]]\nname = 'card'\ncolor = '#ff0000'\n" + line + "\n[[instance]]\nmesh = 'wall'\n";
         if (withCard) toml += "[[instance]]\nmesh = 'card'\nmaterial = 'card'\n";
         replaceFile(folder_.path() / "scene.toml", toml);
         return loadScene(folder_.path() / "scene.toml");
@@ -108,7 +111,8 @@ TEST_F(Holes, haveTheAreaAndTheShadowOfTheirMask) {
     // right.
     mask("left.pgm", [](double u, double) { return u < 0.5; });
     for (const char* accuracy : {"accuracy = 'exact'\n", "accuracy = 'fast'\n"}) {
-        RenderConfig wanted = makeConfig(std::string(accuracy) + "[image]\nsize = [120, 120]\nsamples = 1\n[shading]\ntechnique = 'lambert'\nambient = 0\n[output]\naovs = ['depth', 'shade']\n");
+        RenderConfig wanted = makeConfig(std::string(accuracy) + "[image]\nsize = [120, 120]\nsamples = 1\n"
+            "[shading]\ntechnique = 'lambert'\nambient = 0\n[output]\naovs = ['depth', 'shade']\n");
         const Picture p = draw(wanted, scene("cutout = 'left.pgm'"));
         const auto depthAt = [&](double x, double y) {
             return *p.aov("depth").at(static_cast<int>((x + 2) * 30), static_cast<int>((2 - y) * 30));

@@ -189,7 +189,9 @@ TEST(Occlusion, depthDifferencesGoThroughTheFunction) {
         EXPECT_NEAR(hidden, meanHeight([](double px, double) { return -px; }, x, 0), 0.003) << x;
     }
     // A corner of two such slopes: the higher one is seen.
-    const std::string obj = quadObj({0, 0, 100}, {100, 0, 100}, {100, 0, 0}, {0, 0, 0}) + "v 0 0 0\nv 0 0 100\nv -100 100 100\nv -100 100 -100\nv 0 0 0\nv -100 100 -100\nv 100 100 -100\nv 100 0 0\nf -8 -7 -6 -5\nf -4 -3 -2 -1\n";
+    const std::string obj = quadObj({0, 0, 100}, {100, 0, 100}, {100, 0, 0}, {0, 0, 0}) + "v 0 0 0\nv 0 0 100\n"
+        "v -100 100 100\nv -100 100 -100\nv 0 0 0\nv -100 100 -100\nv 100 100 -100\nv 100 0 0\nf -8 -7 -6 -5\n"
+        "f -4 -3 -2 -1\n";
     const Picture p = drawn(obj, 16);
     for (const auto& [x, y] : {std::pair(93, 67), {100, 80}, {110, 72}}) {
         const float* at = p.aov("position").at(x, y);

@@ -15,11 +15,11 @@
 namespace limn::test {
 
 Renderer& renderer() {
-    static Renderer instance([] {
-        gl::DeviceOptions options;
-        options.debug = true;
-        return options;
-    }());
+    gl::DeviceOptions options;
+    options.debug = true;
+    // Shaders from a folder, for those who try the tests on changed ones.
+    const char* shaders = std::getenv("LIMN_SHADER_DIR");
+    static Renderer instance(options, shaders ? shaders : "");
     return instance;
 }
 

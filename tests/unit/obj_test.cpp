@@ -34,7 +34,8 @@ TEST(Obj, readsWhatRealFilesContain) {
 }
 
 TEST(Obj, mendsWithOneWarningPerKind) {
-    const auto file = parse(std::string(kSquare) + "f 1 2 3\nf 1 2 9\nf 1 2 8\nf 1 2\nf 1 1 2 3\nf a b c\nv nan 0 0\nf 1 2 5\nf 1 2 3 4\nf 2 3 4\nbogus 1\nf 1 3 4\nf 4 3 2 1\n");
+    const auto file = parse(std::string(kSquare) + "f 1 2 3\nf 1 2 9\nf 1 2 8\nf 1 2\nf 1 1 2 3\nf a b c\n"
+        "v nan 0 0\nf 1 2 5\nf 1 2 3 4\nf 2 3 4\nbogus 1\nf 1 3 4\nf 4 3 2 1\n");
     EXPECT_EQ(file.mesh.faceCount(), 6u);
     EXPECT_TRUE(warned(file, "vertex that does not exist"));
     EXPECT_TRUE(warned(file, "fewer than three"));

@@ -1,0 +1,2 @@
+// The same as geometry_fast.
+#include "effects/geometry/fast.vert"
