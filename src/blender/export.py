@@ -783,6 +783,7 @@ class Exporter:
         lines = [
             "# Renders %s. Start from here: every section may be changed or left out."
             % (quoted(camera) if camera else "the scene"),
+            "version = 1",
             "",
             'scene = "scene.toml"',
         ]
