@@ -1,4 +1,4 @@
-// Parse, dispatch, and the only catch.
+// Parses, dispatches, catches.
 
 #include "base/heap.h"
 #include "base/install.h"

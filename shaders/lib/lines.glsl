@@ -53,14 +53,14 @@ struct Piece {
 };
 
 // x: its ends, 8 bits each; never 0, for the ends lie on different sides, or one in the middle. y: its crossing's code,
-// the owner's bit made over.
+// with ownerIsLeft in the owner's bit.
 uvec2 encodePiece(Piece p) {
     uvec4 ends = uvec4(clamp(vec4(p.from, p.to), 0.0, 1.0) * 255.0 + 0.5);
     return uvec2(
         ends.x | (ends.y << 8) | (ends.z << 16) | (ends.w << 24), (p.code & 0x7fffffffu) | (uint(p.ownerIsLeft) << 31));
 }
 
-// Where a crossing says its place, a piece, which knows its ends, says whether its cell has a second one.
+// A piece does not need the crossing's place: its lowest bit says whether the cell has a second piece.
 uvec2 withSecond(uvec2 piece, bool has) { return uvec2(piece.x, (piece.y & ~255u) | uint(has)); }
 bool hasSecond(uvec2 piece) { return (piece.y & 1u) != 0u; }
 

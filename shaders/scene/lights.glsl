@@ -1,4 +1,4 @@
-// The lights, in view space. Mirrors src/gpu/gpu_scene.cpp (std140). Passes that include this define LIGHT_COUNT.
+// The lights, in view space. Mirrors src/gpu/lights.cpp (std140). Passes that include this define LIGHT_COUNT.
 
 struct Light {
     vec4 direction;  // xyz: towards the light, view space, unit; w: 0 sun, 1 point, 2 spot

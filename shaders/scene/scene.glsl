@@ -11,9 +11,10 @@ layout(binding = 8) uniform samplerBuffer normals;     // xyz
 layout(binding = 9) uniform usamplerBuffer triangleNormals;  // per triangle: its three normals
 layout(binding = 10) uniform samplerBuffer uvs;
 layout(binding = 11) uniform usamplerBuffer triangleUvs;  // per triangle: its three uvs
-layout(binding = 12) uniform usamplerBuffer words;        // numbers of materials and parts; see Instance
-layout(binding = 13) uniform usamplerBuffer instances;    // twelve texels per instance; see below
-layout(binding = 14) uniform samplerBuffer materials;     // five texels per material
+// words: line records, numbers of materials and parts, vertex colours; see Instance
+layout(binding = 12) uniform usamplerBuffer words;
+layout(binding = 13) uniform usamplerBuffer instances;  // twelve texels per instance; see below
+layout(binding = 14) uniform samplerBuffer materials;   // five texels per material
 
 const int INSTANCE_TEXELS = 12;
 const uint NO_WORDS = 0xffffffffu;

@@ -1,8 +1,8 @@
 // The three ways in which limn says that something is wrong:
-//   assert        a bug of ours
+//   assert        a bug of ours; Error(internal) where release builds must notice it too
 //   throw Error   bad input or a failing environment: where, what, how to mend it, and the exit code
 //   std::optional normal absence
-// `main` holds the only catch.
+// `main` catches; tests/unit/style_test.cpp lists who else does, and why.
 #pragma once
 
 #include <exception>

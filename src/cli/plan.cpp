@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 namespace limn::cli {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 struct PlanOptions {
     std::string config, format = "text";
     ConfigOverrides overrides;
-    int frame = 0;
+    std::optional<int> frame;
     bool measure = false;
     SessionOptions session;
 };
@@ -21,7 +22,7 @@ struct PlanOptions {
 ExitCode runPlan(const PlanOptions& options) {
     const RenderConfig config = readRenderConfig(options.config, options.overrides);
     Session session(options.session);
-    const int frame = options.frame ? options.frame : session.load(config).scene.firstFrame();
+    const int frame = options.frame.value_or(session.load(config).scene.firstFrame());
     std::vector<double> milliseconds;
     if (options.measure) {
         RenderOptions measured;

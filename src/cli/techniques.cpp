@@ -23,7 +23,7 @@ std::vector<Row> rows(Schema schema, const void* defaults) {
     for (const auto& f : schema)
         result.push_back({std::string(f.name), typeText(f),
             f.info.required ? "required"
-                : defaults  ? f.type().text(f.member_(defaults))
+                : defaults  ? f.type().text(f.constMember(defaults))
                             : "",
             rangeText(f), std::string(f.info.unit), std::string(f.doc), f.info.accuracy,
             f.info.keyable && f.type().components > 0});

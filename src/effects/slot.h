@@ -25,7 +25,7 @@ struct Slot {
     std::string_view key;       ///< where a config chooses: "ao"; "ao.filter" stands within the section of slot "ao"
     std::string_view fallback;  ///< the technique where a config chooses none; empty: then there is none
     Fill fill = Fill::one;
-    std::vector<const Aov*> promises;    ///< every technique of the slot publishes these
+    std::vector<const Aov*> promises;    ///< what a technique of the slot publishes, unless it draws nothing
     const Aov* worksOn = nullptr;        ///< what a technique of the slot changes
     int (*rate)(const View&) = nullptr;  ///< of passes that do not say (picture/sampling.h); null: every sample
     std::string_view doc;

@@ -60,7 +60,7 @@ public:
 
     /// What a config chose, of all slots.
     void setChoices(std::vector<const TechniqueChoice*> choices) { choices_ = std::move(choices); }
-    /// The config's choice of a technique, if it is there: for one that stands in two slots at once, about itself.
+    /// The config's choice of this technique, or null: a technique of two slots asks for its other half.
     const TechniqueChoice* chosen(const Technique& technique) const;
 
     /// What lies behind everything.
@@ -81,7 +81,7 @@ public:
     void beginTechnique(const Slot& slot, std::string_view technique, int layer = 0);
     /// What is added from now on belongs to no slot's technique; `rate`: see picture/sampling.h.
     void beginPasses(std::string slot, std::string technique, int rate);
-    /// For techniques of slots that do with a part of the samples, if they are sharp.
+    /// The technique runs in every sample, whatever its slot's rate.
     void useEverySample() { rate_ = kEverySample; }
     /// A unique suffix for layered slots ("edges" twice), or "".
     std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }

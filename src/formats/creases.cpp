@@ -8,8 +8,8 @@
 
 namespace limn {
 
-void readCreases(const std::filesystem::path& path, PolyMesh& mesh) {
-    const Node document = readDocument(path);
+void readCreases(const std::filesystem::path& path, PolyMesh& mesh, std::vector<std::filesystem::path>* files) {
+    const Node document = readDocument(path, files);
     ErrorCollector errors;
     for (const auto& [key, value] : document.table())
         if (key != "creases" && key != "corners")

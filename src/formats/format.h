@@ -8,6 +8,7 @@
 
 #include "base/content_key.h"
 #include "mesh/poly_mesh.h"
+#include "scene/bounds.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -23,6 +24,7 @@ struct MeshFile {
     std::vector<MeshWarning> warnings;         ///< what was mended on the way
     std::vector<std::filesystem::path> files;  ///< all that was read, the mesh file first; textures are not
     ContentKey key;                            ///< of every byte that the polygons came from
+    Bounds bounds;                             ///< of all positions; made when the mesh is loaded
 };
 
 struct MeshFormat {

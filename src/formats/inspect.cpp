@@ -8,10 +8,9 @@
 namespace limn {
 
 MeshFacts inspectMesh(const std::filesystem::path& path) {
-    ObjFile file = readObj(path);
-    static_cast<void>(readMaterials(path, file.mesh, file.warnings));
-    repairTopology(file.mesh, file.warnings);
-    const PolyMesh& mesh = file.mesh;
+    MeshFile file = meshFormat(path).read(path);
+    repairTopology(file.poly, file.warnings);
+    const PolyMesh& mesh = file.poly;
     MeshFacts facts;
     facts.file = path.string();
     facts.faces = mesh.faceCount();

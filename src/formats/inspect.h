@@ -1,7 +1,7 @@
 // What is in a mesh file, for people and programs.
 #pragma once
 
-#include "formats/obj.h"
+#include "formats/format.h"
 #include "mesh/subdivide.h"
 #include "mesh/topology.h"
 

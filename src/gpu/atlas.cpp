@@ -62,17 +62,16 @@ Layout layOut(const std::map<Files, MipChain>& chains, int maxTextureSize) {
 
 void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
     if (keys_ == scene.textureKeys) return;
-    keys_ = scene.textureKeys;
+    keys_.clear();  // should an image fail, the next frame tries again
     places_.assign(scene.materials.size(), {});
     texture_ = {};
     std::map<Files, MipChain> chains;
     for (const auto& material : scene.materials)
         if (!material.texture.empty() || !material.cutout.empty()) chains[filesOf(material)];
-    if (chains.empty()) return;
     for (auto& [files, chain] : chains)
         chain = makeMipChain(readTexture(files.first, files.second), !files.second.empty());
     Layout layout = layOut(chains, maxTextureSize);
-    texture_ = gl::Texture::pictureArray(layout.side, layout.layers, "texture atlas");
+    if (!chains.empty()) texture_ = gl::Texture::pictureArray(layout.side, layout.layers, "texture atlas");
     for (const auto& [files, chain] : chains)
         for (int l = 0; l < chain.levels(); ++l)
             texture_.writeLayer(layout.corners[files].z, glm::ivec2(layout.corners[files]) + chain.levelOrigin(l),
@@ -80,6 +79,7 @@ void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const auto known = chains.find(filesOf(scene.materials[i])); known != chains.end())
             places_[i] = {layout.corners[known->first], known->second.levels(), known->second.size};
+    keys_ = scene.textureKeys;
 }
 
 }  // namespace limn

@@ -14,14 +14,13 @@
 
 namespace limn {
 
-/// A mesh where an instance has it. Positions are mesh units from the pivot.
+/// An instance's mesh, and how it gets to pixels. Positions are mesh units from the pivot.
 struct PlacedMesh {
     std::span<const Cluster> clusters;
     std::size_t firstPosition = 0, firstIndex = 0;  ///< of the mesh, in TriangleSource
     /// To fine pixels of the canvas (xy), value in the depth buffer (z), all times w, and w.
     glm::mat4 pixelFromMesh{1};
-    /// What is added up to each of those, without signs, in absolute values of the mesh's coordinates: floats round in
-    /// proportion to it.
+    /// The same with every term's absolute value: rounding errors grow with what it gives.
     glm::mat4 terms{0};
     glm::vec3 eye{0};  ///< orthographic: the direction to it
 };

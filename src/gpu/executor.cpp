@@ -42,7 +42,7 @@ void Executor::allocate(const Plan& plan) {
         missing.push_back(i);
         bytes += wanted.bytes();
     }
-    // Images are the C heap's there. A third more: for triangles on their way into them, and for what is read back.
+    // llvmpipe takes images from the C heap. The extra third is for triangles and for what is read back.
     if (device_.report().isSoftware) bringInPages(bytes + bytes / 3);
     for (const std::size_t i : missing)
         textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));

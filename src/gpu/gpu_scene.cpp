@@ -144,7 +144,6 @@ GpuScene::GpuScene(const gl::Limits& limits, bool isSoftware) : limits_(limits),
 void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     const std::size_t recordWords = lineRecords * lineRecordWords({}).size();
     if (isReady_ && needs == needs_ && recordWords <= records_.count) return;
-    isReady_ = true;
     needs_ = needs;
     const auto most = static_cast<std::uint64_t>(limits_.maxBufferTexels);
     slots_.clear();
@@ -255,7 +254,7 @@ void GpuScene::putTables(const SceneAt& scene) {
             words.insert(words.end(), {instance.materials[i], instance.lineRecords[i]});
     }
     const std::span<const std::uint32_t> all(words), tables = all.subspan(recordWords);
-    if (words != tableWords_) {
+    if (words != tableWords_ || recordWords != recordWords_) {
         words_.write({0, static_cast<std::uint32_t>(recordWords)}, std::as_bytes(all.first(recordWords)));
         if (tables_.count == tables.size()) {
             words_.write(tables_, std::as_bytes(tables));
@@ -264,6 +263,7 @@ void GpuScene::putTables(const SceneAt& scene) {
             tables_ = words_.put(std::as_bytes(tables));
         }
         tableWords_ = words;
+        recordWords_ = recordWords;
     }
     for (auto& table : materialTables_) table += tables_.first;
 }
@@ -307,7 +307,8 @@ void GpuScene::connect() {
 
 void GpuScene::update(
     const SceneAt& scene, std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made) {
-    if (!has(needs_, SceneData::positions)) return;
+    isReady_ = !has(needs_, SceneData::positions);
+    if (isReady_) return;
     const auto mostLights = static_cast<std::size_t>(limits_.maxUniformBlock) / lightSize();
     if (has(needs_, SceneData::lights) && scene.lights.size() > mostLights)
         throw Error(ExitCode::badData, {},
@@ -319,7 +320,11 @@ void GpuScene::update(
     putCommands();
     connect();
     if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
-    if (!has(needs_, SceneData::materials)) return;
+    if (has(needs_, SceneData::materials)) putMaterials(scene);
+    isReady_ = true;
+}
+
+void GpuScene::putMaterials(const SceneAt& scene) {
     std::vector<GpuMaterial> materials;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         materials.push_back(

@@ -21,8 +21,8 @@ public:
     /// `isSoftware`: of scenes with many triangles, only what can be seen need be drawn.
     GpuScene(const gl::Limits& limits, bool isSoftware);
 
-    /// What will be read of the scenes to come, and how many line records they have. What is there for other needs is
-    /// given up.
+    /// Declares what will be read of the scenes to come, and how many line records they have. A change drops everything
+    /// that is held.
     void require(SceneData needs, std::size_t lineRecords);
     bool holds(const ContentKey& mesh) const { return slots_.contains(mesh); }
 
@@ -62,6 +62,7 @@ private:
     void putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
     /// What objects and materials say of their lines, and which materials each instance shows.
     void putTables(const SceneAt& scene);
+    void putMaterials(const SceneAt& scene);
     void putCommands();
     /// Lets shaders and vertex pipelines see buffers that are new.
     void connect();
@@ -69,14 +70,17 @@ private:
     std::vector<std::byte> instanceBytes(const SceneAt& scene, const View& view) const;
 
     gl::Limits limits_;
-    bool isSoftware_, isReady_ = false, isCullable_ = false;
+    bool isSoftware_, isCullable_ = false;
+    bool isReady_ = false;  ///< the last update went through: what is held is whole
     SceneData needs_ = SceneData::none;
     std::map<ContentKey, Slot> slots_;
     std::vector<const Slot*> shown_;  ///< of each instance
     Arena positions_, triangles_, normals_, triangleNormals_, uvs_, triangleUvs_, words_;
-    ArenaPiece records_, tables_;                             ///< of words_: line records at its begin, material tables
-    std::vector<std::uint32_t> tableWords_, materialTables_;  ///< what stands in both; where each instance's begins
-    std::vector<int> generations_;                            ///< of the arenas that the views below show
+    ArenaPiece records_, tables_;                ///< of words_: line records at its begin, material tables
+    std::vector<std::uint32_t> tableWords_;      ///< what stands in both
+    std::size_t recordWords_ = 0;                ///< of these, how many are line records
+    std::vector<std::uint32_t> materialTables_;  ///< of each instance: where its table begins
+    std::vector<int> generations_;               ///< of the arenas that the views below show
     gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_;
     std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,

@@ -7,9 +7,8 @@
 namespace limn {
 namespace {
 
-/// Goes from what is wanted back to what that reads: a pass must make as much around the picture as its readers make,
-/// and what they read around that. What runs for every sample makes no more than passes that run in this one read; what
-/// runs less often keeps what it makes.
+/// Walks from the wanted images back and adds halos up. Passes of every sample shrink to what this run reads; passes
+/// with a rate keep their extent.
 void spreadDemand(const Graph& graph, Plan& plan, std::span<const Wanted> wanted) {
     struct Demand {
         bool isRead = false, whole = false;
@@ -129,7 +128,7 @@ private:
     void layOutTextures() {
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
-        // What is read by what runs when it is not made anew must last from one run to the next.
+        // An image outlives a run if a reader may run in a sample in which its writer does not.
         const auto makesFor = [](int writer, int reader) { return writer == reader || writer == kEverySample; };
         std::vector<int> rateOf(graph_.resources.size(), kEverySample);
         std::vector<bool> mustLast(graph_.resources.size(), false);

@@ -117,7 +117,9 @@ public:
                 drawJob(jobs[j], loaded);
             });
             ahead();
-            session_.forget(jobs[j].config);
+            const bool isDone = std::none_of(jobs.begin() + static_cast<std::ptrdiff_t>(j) + 1, jobs.end(),
+                [&](const Job& later) { return later.config.scene == jobs[j].config.scene; });
+            if (isDone) session_.forget(jobs[j].config);
         }
         if (!device.debugMessages().empty())
             throw Error(ExitCode::internal, {},

@@ -1,5 +1,6 @@
 #include "job/session.h"
 
+#include <set>
 #include <utility>
 
 namespace limn {
@@ -42,12 +43,14 @@ void Session::makeAhead(const RenderConfig& config, std::optional<int> frame) {
 const LoadedScene& Session::load(const RenderConfig& config) {
     loadAhead(config);
     const LoadedScene& loaded = *scenes_.at(nameOf(config)).get();
+    auto& stamps = stamps_[nameOf(config)];
     for (const auto& files : {loaded.files, loaded.meshes->files()})
         for (const auto& file : files) {
+            if (stamps.contains(file)) continue;
             const Stamp stamp = stampOf(file);
             // What was written while it may have been read counts as changed.
             const bool isSure = stamp && stamp->second < begun_.at(nameOf(config));
-            stamps_.try_emplace(file, isSure ? stamp : std::nullopt);
+            stamps.emplace(file, isSure ? stamp : std::nullopt);
         }
     return loaded;
 }
@@ -57,14 +60,15 @@ void Session::forget(const RenderConfig& config) {
     begun_.erase(nameOf(config));
     meshes_ = {};
     if (renderer_) renderer_->await({});
-    if (scenes_.empty()) stamps_.clear();
+    stamps_.erase(nameOf(config));
 }
 
 std::vector<std::filesystem::path> Session::changedFiles() const {
-    std::vector<std::filesystem::path> changed;
-    for (const auto& [file, stamp] : stamps_)
-        if (!stamp || stampOf(file) != stamp) changed.push_back(file);
-    return changed;
+    std::set<std::filesystem::path> changed;
+    for (const auto& [scene, stamps] : stamps_)
+        for (const auto& [file, stamp] : stamps)
+            if (!stamp || stampOf(file) != stamp) changed.insert(file);
+    return {changed.begin(), changed.end()};
 }
 
 RenderedFrame Session::draw(const RenderConfig& config, int frame, const RenderOptions& options) {

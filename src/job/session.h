@@ -56,8 +56,9 @@ private:
     std::unique_ptr<Renderer> renderer_;
     std::map<SceneName, Loading> scenes_;
     std::map<SceneName, std::filesystem::file_time_type> begun_;  ///< when loading each began
-    std::map<std::filesystem::path, Stamp> stamps_;               ///< of the files of scenes_, when they were read
-    std::future<MadeMeshes> meshes_;                              ///< under way for the next draw()
+    std::map<SceneName, std::map<std::filesystem::path, Stamp>>
+        stamps_;                      ///< of the files of scenes_, when they were read
+    std::future<MadeMeshes> meshes_;  ///< under way for the next draw()
 };
 
 }  // namespace limn

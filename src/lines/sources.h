@@ -21,7 +21,8 @@ struct LineSource {
     bool onlyOfSections = false;    ///< there is none where nothing is cut open
 };
 
-/// Of several reasons the last that holds counts, but for silhouettes, which count before all but sections.
+/// Where several reasons hold, sections count before silhouettes, then objects, materials and creases
+/// (depth_normal.comp).
 inline constexpr LineSource kLineSources[] = {
     {"silhouettes", "silhouette_color", "SILHOUETTE", 1,
         "Weight of lines where one surface ends in front of another or of nothing; at 0 there are none.",
@@ -37,7 +38,7 @@ inline constexpr LineSource kLineSources[] = {
 };
 inline constexpr std::size_t kLineSourceCount = std::size(kLineSources);
 
-/// The row of a source by its number in shaders, which counts from 1; 0 is no line.
+/// The row of the source with this define. Its number in shaders is one more; 0 is no line.
 constexpr std::size_t lineSource(std::string_view define) {
     for (std::size_t i = 0; i < kLineSourceCount; ++i)
         if (kLineSources[i].define == define) return i;

@@ -80,7 +80,7 @@ inline const Aov lineRecord{"line_record", Format::r32ui, {"id"}, AovKind::numbe
 inline const Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, AovKind::numbers,
     AovUse::betweenPasses,
     "Instance, counted from 1, and triangle (one number where both fit, see shaders/lib/seen.glsl); on the fine "
-    "raster. Only of the exact geometry."};
+    "raster. Only of the exact geometry; R32UI where one number is enough."};
 
 }  // namespace aov
 

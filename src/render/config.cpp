@@ -22,7 +22,7 @@ constexpr Field kHeader[] = {
     field<&Header::camera>("camera", "Name of the camera; the scene's first if left out."),
     field<&Header::sections>(
         "sections", "Names of the scene's sections to cut it open by; those without a name always do."),
-    field<&Header::frames>("frames", "Range of frames to draw, such as \"1-24\"; narrows the scene's."),
+    field<&Header::frames>("frames", "Range of frames to draw, such as \"1-24\"; replaces the scene's."),
 };
 
 constexpr Field kImage[] = {

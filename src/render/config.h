@@ -43,7 +43,7 @@ struct RenderConfig {
     Choices choices;
     std::vector<std::string> sections;  ///< names of the scene's sections to cut by
     double scale = 0;                   ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
-    std::optional<FrameRange> frames;   ///< narrows the scene's
+    std::optional<FrameRange> frames;   ///< replaces the scene's
     OutputSettings output;
     std::string hash;  ///< of everything in the config, includes and settings applied
 

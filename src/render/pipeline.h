@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// The passes for some AOVs, compiled. Made once for all samples of a frame.
+/// The passes for some AOVs, compiled. Made once for all samples of a tile.
 struct Pipeline {
     Graph graph;
     std::vector<Wanted> wanted;  ///< one per AOV, in the order of `aovs`

@@ -219,20 +219,22 @@ MadeMeshes Renderer::makeMissing(
         made.meshes.merge(more.meshes);
         made.shownAs.merge(more.shownAs);
     }
-    watch.lap("of which triangles, beyond the programs");
+    watch.lap("of which waiting for triangles");
     for (const auto& [key, mesh] : made.meshes)
         if (frame.facts.triangleBits > 0 && mesh.triangleCount() > std::size_t{1} << frame.facts.triangleBits)
             throw Error(ExitCode::internal, {frame.loaded.scene.file},
                 "a mesh became more triangles than were planned for", "please report this");
-    times.push_back({"triangles, begun beside what is above", made.milliseconds});
+    times.push_back({"triangles (made in parallel)", made.milliseconds});
     return made;
 }
 
-void Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made) {
+bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made) {
     rayMeshes_.merge(made);
     const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
     std::erase_if(rayMeshes_, [&](const auto& entry) { return !wanted.contains(entry.first); });
+    const SceneInfo& info = frame.scene.info;
     KeyBuilder key;
+    key.add(info.unit()).bytes(&info.bounds.lo, sizeof info.bounds.lo);
     std::vector<const TriMesh*> meshes;
     for (std::size_t i = 0; i < meshOf.size(); ++i) {
         const DrawInstance& instance = frame.scene.instances[i];
@@ -243,13 +245,14 @@ void Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf,
             key.add(texture.low).add(texture.high);
         }
     }
-    if (rayScene_ && key.key() == rayKey_) return;
+    if (rayScene_ && key.key() == rayKey_) return false;
     rayScene_ = nullptr;
     rayScene_ = std::make_unique<RayScene>(frame.scene, meshes);
     rayKey_ = key.key();
+    return true;
 }
 
-void Renderer::bringScene(const Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times) {
+void Renderer::bringScene(Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times) {
     const SceneData needs = pipelines.sceneData();
     gpuScene_.require(needs, frame.scene.lineRecords.size());
     if (!has(needs, SceneData::rays)) rayMeshes_.clear();
@@ -257,7 +260,12 @@ void Renderer::bringScene(const Frame& frame, const TilePipelines& pipelines, st
     MadeMeshes made = makeMissing(frame, pipelines, orders, times);
     shownAs_.merge(made.shownAs);
     std::vector<ContentKey> meshOf;
-    for (const std::size_t order : orders.orderOf) meshOf.push_back(shownAs(orders.orders[order].key));
+    std::set<ContentKey> asked;
+    for (const std::size_t order : orders.orderOf) {
+        meshOf.push_back(shownAs(orders.orders[order].key));
+        asked.insert(orders.orders[order].key);
+    }
+    std::erase_if(shownAs_, [&](const auto& entry) { return !asked.contains(entry.first); });
     Stopwatch watch(times);
     gpuScene_.update(frame.scene, meshOf, made.meshes);
     watch.lap("of which upload");
@@ -265,8 +273,7 @@ void Renderer::bringScene(const Frame& frame, const TilePipelines& pipelines, st
         rayScene_ = nullptr;
         return;
     }
-    bringRays(frame, meshOf, made.meshes);
-    watch.lap("of which ray tracing tree");
+    if (bringRays(frame, meshOf, made.meshes)) watch.lap("of which ray tracing tree");
 }
 
 void Renderer::drawSamples(
@@ -337,7 +344,7 @@ RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
     Stopwatch watch(result.times);
-    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number};
+    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number, std::move(awaited_)};
     frame.scene = sceneAt(loaded, frame.request);
     frame.facts = sceneFacts(frame.scene);
     const glm::ivec2 size = config.image.size;

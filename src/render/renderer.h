@@ -1,4 +1,4 @@
-// Draws configs into pictures: loads, plans, draws every sample, reads back, and writes.
+// Draws one frame: plans, brings the scene to the GPU, runs every sample, reads back.
 #pragma once
 
 #include "gpu/executor.h"
@@ -78,16 +78,18 @@ private:
         SceneAt scene;
         SceneFacts facts;
         int number;
+        std::future<MadeMeshes> awaited;  ///< gone with the frame, whatever becomes of it
     };
 
     /// Compiles the programs of all samples of a frame.
     void prepare(const Pipeline& pipeline, View view);
     /// Sees to it that the scene is on the GPU, and its ray tracing tree made where the plan traces rays.
-    void bringScene(const Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times);
+    void bringScene(Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times);
     /// The meshes that are neither on the GPU nor kept for rays.
     MadeMeshes makeMissing(
         const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
-    void bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
+    /// Makes the tree anew where what it is made of has changed; false where it has not.
+    bool bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
     ContentKey shownAs(const ContentKey& order) const;
 
     /// Throws Error where the shadow maps of all lights do not fit into a texture.

@@ -24,7 +24,7 @@ std::vector<std::string> restingSlots(const Pipeline& pipeline, const View& view
     return slots;
 }
 
-/// What samples save in which most slots rest, in words; empty where nothing is saved.
+/// What the cheapest samples leave out, in words; empty where nothing is.
 std::string savedSamples(const Pipeline& pipeline, View view) {
     std::vector<std::string> most;
     int count = 0, one = 0;
@@ -106,7 +106,7 @@ void addLengths(PlanFacts& facts, const TechniqueChoice& choice, const SceneAt& 
     const auto params = choice.at(scene.frame);
     for (const auto& field : choice.technique->schema) {
         if (&field.type() != &fieldType<Length>()) continue;
-        const auto& length = *static_cast<const Length*>(field.member_(params.get()));
+        const auto& length = *static_cast<const Length*>(field.constMember(params.get()));
         if (length.relative)
             add(facts, std::string(field.name),
                 fmt::format("{}% of the diagonal = {} scene units ({} '{}')", numberText(length.amount * 100),

@@ -146,13 +146,8 @@ Node readDocument(const std::filesystem::path& path, std::vector<std::filesystem
     return readLayered(path, open, files, {});
 }
 
-void applySetting(Node& document, std::string_view setting) {
-    const Location where{fmt::format("--set {}", setting), 0, 0};
-    const auto equals = setting.find('=');
-    if (equals == std::string_view::npos || equals == 0)
-        throw Error(ExitCode::usage, where, "this is not KEY=VALUE", "write for example --set ao.radius=0.4");
-    const std::string text(setting.substr(equals + 1));
-
+/// The value of KEY=VALUE; it and whatever stands inside come from the command line.
+static Node settingValue(const std::string& text, const Location& where) {
     Node value;
     try {
         value = *parseDocument("value = " + text, where.file).find("value");
@@ -168,6 +163,17 @@ void applySetting(Node& document, std::string_view setting) {
             for (auto& entry : *table) self(self, entry.second);
     };
     setPlace(setPlace, value);
+    return value;
+}
+
+void applySetting(Node& document, std::string_view setting) {
+    const Location where{fmt::format("--set {}", setting), 0, 0};
+    const auto equals = setting.find('=');
+    if (equals == std::string_view::npos || equals == 0)
+        throw Error(ExitCode::usage, where, "this is not KEY=VALUE", "write for example --set ao.radius=0.4");
+    const std::string text(setting.substr(equals + 1));
+
+    Node value = settingValue(text, where);
 
     Node* node = &document;
     std::string_view path = setting.substr(0, equals);
@@ -187,12 +193,17 @@ void applySetting(Node& document, std::string_view setting) {
                     "count from 0, for example edges.0.width");
             node = &(*array)[static_cast<std::size_t>(*index)];
         } else {
+            // A technique may stand there by its name alone.
+            if (const std::string* name = node->text())
+                *node = Node{
+                    node->where, Node::Table{{"technique", Node{node->where, *name, node->where}}}, node->keyWhere};
             if (!node->isTable())
                 throw Error(
                     ExitCode::usage, where, fmt::format("'{}' lies inside a value that is not a table", key), "");
             if (!node->find(key)) {
                 std::get<Node::Table>(node->value).emplace_back(key, Node{where, Node::Table{}, where});
-            } else if (dot != std::string_view::npos && !node->find(key)->isTable() && !node->find(key)->isArray()) {
+            } else if (const Node& found = *node->find(key);
+                       dot != std::string_view::npos && !found.isTable() && !found.isArray() && !found.text()) {
                 *node->find(key) = Node{where, Node::Table{}, where};
             }
             node = node->find(key);

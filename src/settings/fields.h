@@ -39,7 +39,7 @@ inline constexpr std::array<std::string_view, 0> enumNames{};
 
 /// What is declared about a parameter besides its type and default.
 struct FieldInfo {
-    std::string_view unit = "";
+    std::string_view unit;
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool accuracy = false;  ///< buys accuracy with time: a study may sweep it
@@ -96,7 +96,7 @@ struct Field {
     const FieldType& (*type)() = nullptr;
     void* (*member)(void* object) = nullptr;
 
-    const void* member_(const void* object) const { return member(const_cast<void*>(object)); }
+    const void* constMember(const void* object) const { return member(const_cast<void*>(object)); }
 };
 
 template <class M>

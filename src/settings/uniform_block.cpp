@@ -48,7 +48,7 @@ UniformBlock makeUniformBlock(std::string_view name, int binding, Schema schema,
         const auto& type = field.type();
         const std::size_t at = (block.bytes.size() + type.glslAlign - 1) / type.glslAlign * type.glslAlign;
         block.bytes.resize(at + type.glslSize);
-        type.pack(field.member_(object), block.bytes.data() + at);
+        type.pack(field.constMember(object), block.bytes.data() + at);
         block.members.push_back({std::string(type.glsl), std::string(field.name),
             fmt::format("{}{}{}", field.info.unit, field.info.unit.empty() ? "" : ": ", field.doc), type.glslSize, at});
     }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace limn {
@@ -52,29 +56,60 @@ struct Viewer {
     bool operator==(const Viewer&) const = default;
 };
 
-/// How the cameras of all declared frames see some instances, without repeating what is there.
-std::vector<Viewer> viewersOf(
-    const LoadedScene& loaded, std::span<const std::size_t> instances, const FrameRequest& request) {
+/// How the cameras of all declared frames see an instance, without repeating what is there.
+std::vector<Viewer> findViewers(const LoadedScene& loaded, std::size_t number, const FrameRequest& request) {
     std::vector<Viewer> viewers;
     const FrameRange frames =
         loaded.scene.frames.value_or(FrameRange{loaded.scene.firstFrame(), loaded.scene.firstFrame()});
     const SceneInfo info = sceneInfo(loaded);
     const glm::dvec2 size(request.imageSize);
-    for (const std::size_t number : instances)
-        for (int frame = frames.first; frame <= frames.last; ++frame) {
-            FrameRequest at = request;
-            at.frame = frame;
-            const View view = makeView(cameraAt(loaded, at), info, {.imageSize = request.imageSize});
-            const glm::dmat4 world = loaded.scene.instances[number].at(frame).transform();
-            const glm::dmat3 linear(world);
-            glm::dmat4 toView(view.viewFromRelative * linear);
-            toView[3] = glm::dvec4(view.toView(glm::dvec3(world[3])), 1);
-            const double stretch = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-            const Viewer viewer{toView, stretch, view.orthographic, 1 / view.rayScale.x, view.rayOffset,
-                size * view.rayScale + view.rayOffset};
-            if (std::find(viewers.begin(), viewers.end(), viewer) == viewers.end()) viewers.push_back(viewer);
-        }
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        FrameRequest at = request;
+        at.frame = frame;
+        const View view = makeView(cameraAt(loaded, at), info, {.imageSize = request.imageSize});
+        const glm::dmat4 world = loaded.scene.instances[number].at(frame).transform();
+        const glm::dmat3 linear(world);
+        glm::dmat4 toView(view.viewFromRelative * linear);
+        toView[3] = glm::dvec4(view.toView(glm::dvec3(world[3])), 1);
+        const double stretch = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+        const Viewer viewer{toView, stretch, view.orthographic, 1 / view.rayScale.x, view.rayOffset,
+            size * view.rayScale + view.rayOffset};
+        // Frames that differ follow each other: what stands still is met again at once.
+        if (viewers.empty() || viewers.back() != viewer) viewers.push_back(viewer);
+    }
     return viewers;
+}
+
+}  // namespace
+
+/// Found out once for each instance, camera and size of picture.
+struct EdgeViewers {
+    using Asked = std::tuple<std::size_t, std::string, int, int, double, double>;
+    std::mutex mutex;
+    std::map<Asked, std::vector<Viewer>> known;
+
+    const std::vector<Viewer>& of(const LoadedScene& loaded, std::size_t instance, const FrameRequest& request) {
+        const std::lock_guard lock(mutex);
+        const Asked asked{
+            instance, request.camera, request.imageSize.x, request.imageSize.y, request.dpi, request.scale};
+        const auto found = known.find(asked);
+        return found != known.end() ? found->second
+                                    : known.emplace(asked, findViewers(loaded, instance, request)).first->second;
+    }
+};
+
+std::shared_ptr<EdgeViewers> makeEdgeViewers() { return std::make_shared<EdgeViewers>(); }
+
+namespace {
+
+/// Of some instances together.
+std::vector<Viewer> viewersOf(
+    const LoadedScene& loaded, std::span<const std::size_t> instances, const FrameRequest& request) {
+    std::vector<Viewer> all;
+    for (const std::size_t instance : instances)
+        for (const Viewer& viewer : loaded.viewers->of(loaded, instance, request))
+            if (all.empty() || all.back() != viewer) all.push_back(viewer);
+    return all;
 }
 
 std::optional<SubdivisionSettings::EdgeLength> wantedEdge(const LoadedScene& loaded, std::size_t instance) {
@@ -87,9 +122,7 @@ std::optional<SubdivisionSettings::EdgeLength> wantedEdge(const LoadedScene& loa
 int edgeClass(const LoadedScene& loaded, const SceneAt& scene, std::size_t instance, const FrameRequest& request) {
     const auto wanted = wantedEdge(loaded, instance);
     if (!wanted) return 0;
-    Bounds bounds;
-    for (const auto& p : scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)]->poly.positions)
-        bounds.add(p);
+    const Bounds& bounds = scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)]->bounds;
     if (bounds.empty()) return 0;
     double size = 0;
     for (const auto& viewer : viewersOf(loaded, {&instance, 1}, request))

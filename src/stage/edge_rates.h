@@ -4,9 +4,13 @@
 #include "stage/scene_at.h"
 
 #include <functional>
+#include <memory>
 #include <span>
 
 namespace limn {
+
+/// Where a loaded scene keeps what is found out here.
+std::shared_ptr<EdgeViewers> makeEdgeViewers();
 
 /// Instances of one mesh that are of one class look so much alike in size, within a factor of sqrt(2), that they may
 /// share one mesh: what that has too many triangles for some of them costs less than making and keeping a mesh for

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "formats/creases.h"
 #include "mesh/topology.h"
+#include "stage/edge_rates.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -31,13 +32,15 @@ MeshFile readMesh(const MeshSource& source, int frame) {
     KeyBuilder key;
     key.add(mesh.key.low).add(mesh.key.high);
     if (!source.creases.empty()) {
-        readCreases(source.creases, mesh.poly);
-        mesh.files.push_back(source.creases);
-        key.add(MappedFile(source.creases).text());
+        std::vector<std::filesystem::path> sidecar;
+        readCreases(source.creases, mesh.poly, &sidecar);
+        for (const auto& file : sidecar) key.add(MappedFile(file).text());
+        mesh.files.insert(mesh.files.end(), sidecar.begin(), sidecar.end());
     }
     const bool repairs = source.subdivision.present || mesh.poly.cornerNormal.empty();
     if (repairs) repairTopology(mesh.poly, mesh.warnings);
     mesh.key = key.add(repairs).key();
+    for (const auto& p : mesh.poly.positions) mesh.bounds.add(p);
     return mesh;
 }
 
@@ -62,7 +65,7 @@ struct MeshLibrary::State {
     std::vector<MeshSource> sources;
     std::vector<bool> isDrawn;
     std::mutex mutex;
-    std::vector<std::vector<Entry>> entries;  ///< of each source, the last used behind
+    std::vector<std::vector<Entry>> entries;  ///< of each source, in the order in which they were read
     ImageKeys images;
 
     int frameOf(std::size_t source, int frame) const { return sources[source].perFrame ? frame : 0; }
@@ -76,19 +79,22 @@ struct MeshLibrary::State {
     /// Reads these meshes at a frame, in parallel. Nothing is kept should one of them fail.
     void read(const std::vector<std::size_t>& wanted, int frame) {
         std::vector<MeshFile> meshes(wanted.size());
+        std::vector<ImageKeys> shown(wanted.size());
         std::vector<std::vector<Error>> failed(wanted.size());
-        tbb::parallel_for(std::size_t{0}, wanted.size(),
-            [&](std::size_t w) { collect(failed[w], [&] { meshes[w] = readMesh(sources[wanted[w]], frame); }); });
+        tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t w) {
+            collect(failed[w], [&] {
+                meshes[w] = readMesh(sources[wanted[w]], frame);
+                for (const auto& material : meshes[w].materials)
+                    for (const auto& image : {material.texture, material.cutout}) addImage(shown[w], image);
+            });
+        });
         ErrorCollector errors;
         for (const auto& list : failed)
             for (const auto& error : list) errors.add(error);
         errors.throwIfAny();
         for (std::size_t w = 0; w < wanted.size(); ++w) {
             warnOf(meshes[w]);
-            for (const auto& material : meshes[w].materials) {
-                addImage(images, material.texture);
-                addImage(images, material.cutout);
-            }
+            images.merge(shown[w]);
             auto& kept = entries[wanted[w]];
             constexpr std::size_t kMost = 2;
             if (kept.size() == kMost) kept.erase(kept.begin());
@@ -156,6 +162,7 @@ std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const 
 
 LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subdivide) {
     LoadedScene loaded;
+    loaded.viewers = makeEdgeViewers();
     if (isMeshFile(path)) {
         loaded.scene = sceneOfMesh(path);
         if (subdivide) loaded.scene.meshes.front().subdivision = {.present = true, .level = *subdivide};

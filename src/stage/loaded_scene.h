@@ -14,8 +14,8 @@ namespace limn {
 
 using SharedMesh = std::shared_ptr<const MeshFile>;
 
-/// The mesh files of a scene, each read when it is first asked for. Files that stand for one frame are forgotten when
-/// others are read: the last two frames' are kept. May be used from several threads.
+/// The mesh files of a scene, each read when it is first asked for. Of a mesh with a file for
+/// each frame, the last two that were read are kept. May be used from several threads.
 class MeshLibrary {
 public:
     /// `isDrawn`: of each mesh, whether an instance draws it; the others are never read.
@@ -35,6 +35,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
+struct EdgeViewers;
+
 struct LoadedScene {
     Scene scene;
     std::shared_ptr<const MeshLibrary> meshes;
@@ -42,6 +44,7 @@ struct LoadedScene {
     std::vector<std::filesystem::path> files;  ///< that the scene itself came from, its materials' images among them
     ContentKey key;                            ///< of those
     ImageKeys images;                          ///< of the scene's own materials
+    std::shared_ptr<EdgeViewers> viewers;      ///< what stage/edge_rates has found out
 };
 
 /// Index into Scene::meshes.

@@ -30,7 +30,7 @@ ContentKey wholeKey(const LoadedScene& loaded, const SceneAt& scene, const Frame
     return key.key();
 }
 
-/// The same of a mesh that sections may cut: what they are, seen from the mesh.
+/// Key of an order that may be cut: whole mesh, instance's transform, all sections.
 ContentKey cutKey(const SceneAt& scene, const MeshOrder& order) {
     const glm::dmat4& world = scene.instances[order.instances.front()].worldFromMesh;
     KeyBuilder key;
@@ -90,7 +90,7 @@ MadeMeshes makeMeshes(const LoadedScene& loaded, const SceneAt& scene, const Fra
     std::vector<const MeshOrder*> cuts;
     for (const auto& order : orders.orders) {
         if (!isWanted(order)) continue;
-        if (order.isCut) cuts.push_back(&order);
+        if (order.mayBeCut) cuts.push_back(&order);
         wanted.emplace(order.whole, &orders.wholes.at(order.whole));
     }
     const std::vector<std::pair<ContentKey, const MeshOrder*>> list(wanted.begin(), wanted.end());

@@ -15,13 +15,13 @@ struct MeshOrder {
     ContentKey key;                      ///< of everything that its triangles depend on
     std::size_t mesh = 0;                ///< index into SceneAt::meshes
     std::vector<std::size_t> instances;  ///< that show it: index into SceneAt::instances
-    bool isCut = false;                  ///< sections may reach its only instance
+    bool mayBeCut = false;               ///< sections may reach its only instance
     ContentKey whole;                    ///< where it may be cut: the key that it has if no section reaches it
 };
 
 struct MeshOrders {
     std::vector<MeshOrder> orders;
-    std::map<ContentKey, MeshOrder> wholes;  ///< what orders to be cut are cut from; the orders themselves elsewhere
+    std::map<ContentKey, MeshOrder> wholes;  ///< the order of each uncut mesh, by its key
     std::vector<std::size_t> orderOf;        ///< of each instance: index into orders
     MeshNeeds needs;
 };

@@ -63,7 +63,7 @@ std::uint32_t lineRecord(SceneAt& scene, const Instance& object, const Material&
 
 /// The sections that are asked for, and their materials.
 std::vector<std::uint32_t> resolveSections(
-    const Scene& scene, const FrameRequest& request, SceneAt& draw, std::vector<Material>& materials) {
+    const Scene& scene, const FrameRequest& request, SceneAt& at, std::vector<Material>& materials) {
     std::vector<std::string> names;
     for (const auto& section : scene.sections) names.push_back(section.base.name);
     for (const auto& name : request.sections)
@@ -82,7 +82,7 @@ std::vector<std::uint32_t> resolveSections(
             throw Error(ExitCode::usage, {scene.file},
                 fmt::format("the normal of section '{}' has no length at frame {}", section.name, request.frame),
                 "keep its keys from pointing opposite ways");
-        draw.sections.push_back({section.point, section.normal / length});
+        at.sections.push_back({section.point, section.normal / length});
         numbers.push_back(static_cast<std::uint32_t>(materials.size()));
         const auto pixels = [&](const PictureLength& width) {
             return width.inPixels(request.imageSize.y, request.dpi);
@@ -198,7 +198,8 @@ SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
     key.add(loaded.key.low).add(loaded.key.high);
     for (const auto& mesh : at.meshes)
         if (mesh) key.add(mesh->key.low).add(mesh->key.high);
-    for (const auto& one : at.materialKeys) key.add(one.low).add(one.high);
+    for (const auto& keys : {at.materialKeys, at.lightKeys})
+        for (const auto& one : keys) key.add(one.low).add(one.high);
     at.key = key.key();
     return at;
 }

@@ -42,7 +42,8 @@ struct SectionPlane {
     bool operator==(const SectionPlane&) const = default;
 };
 
-/// Made by sceneAt(), and never changed after. Names point into the scene and the meshes, which it keeps alive.
+/// Made by sceneAt(), and never changed after. Parts' names point into the meshes, which it keeps alive; instances'
+/// names into the loaded scene, which must outlive it.
 struct SceneAt {
     double frame = 1;
     std::vector<SharedMesh> meshes;  ///< beside Scene::meshes; null where no instance draws one

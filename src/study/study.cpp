@@ -116,27 +116,32 @@ private:
 
     void readAxes(const Node& tune, StudyMethod& method) {
         if (!tune.isTable()) return fail(tune, "'tune' must be a table of lists", "");
+        std::vector<const Node*> places;  // of each axis' values
         for (const auto& [key, values] : tune.table()) {
             StudyAxis axis{key, {}};
             if (!values.isArray() || values.array().empty())
                 fail(values, fmt::format("'{}' must be a list of values", key), "");
             else
-                for (const auto& value : values.array()) {
+                for (const auto& value : values.array())
                     axis.values.push_back(
                         value.text() ? *value.text() : numberText(static_cast<float>(value.number())));
-                    checkAxis(method.ao, key, axis.values.back(), value);
-                }
             method.axes.push_back(std::move(axis));
+            places.push_back(&values);
         }
+        if (!errors_.empty()) return;
+        for (std::size_t a = 0; a < method.axes.size(); ++a)
+            for (std::size_t v = 0; v < method.axes[a].values.size(); ++v)
+                checkValue(method, a, v, places[a]->array()[v]);
     }
 
-    /// A config with this value must be one that can be read.
-    void checkAxis(const Node& ao, const std::string& key, const std::string& value, const Node& at) {
-        if (!ao.isTable() || ao.table().empty()) return;
+    /// A config with this value, and the first of every other axis, must be one that can be read.
+    void checkValue(const StudyMethod& method, std::size_t axis, std::size_t value, const Node& at) {
         ErrorCollector found;
         found.run([&] {
-            Node document = documentOf(ao);
-            applySetting(document, fmt::format("ao.{}={}", key, value));
+            Node document = documentOf(method.ao);
+            for (std::size_t a = 0; a < method.axes.size(); ++a)
+                applySetting(document,
+                    fmt::format("ao.{}={}", method.axes[a].key, method.axes[a].values[a == axis ? value : 0]));
             static_cast<void>(readChoices(document, found));
         });
         for (const auto& error : found.list()) errors_.add({error.code, at.where, error.problem, error.remedy});

@@ -52,6 +52,31 @@ protected:
     TemporaryFolder folder;
 };
 
+TEST_F(Errors, aBadFrameFailsAloneWhereTheOthersGoOn) {
+    for (const int frame : {1, 2, 3}) write(fmt::format("m_{}.obj", frame), boxObj({-1, -1, -1}, {1, frame, 1}));
+    write("m_1.obj", "v 0 0 0\n");
+    write("scene.toml", "[animation]\nframes = \"2-3\"\n[[mesh]]\nname = \"m\"\nfile = \"m_#.obj\"\n");
+    // The bad one is first: what was begun for it must not come up again.
+    const RunResult r = run("render config.toml --frames 1-3 --keep-going --output out/p_#.png");
+    EXPECT_EQ(r.exitCode, 1) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/p_1.png"));
+    for (const char* name : {"out/p_2.png", "out/p_3.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << r.err;
+}
+
+TEST_F(Errors, anImageThatFailsOnceFailsInEveryFrame) {
+    write("m.obj", "vt 0 0\nvt 1 0\nvt 1 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/1 2/2 3/3\n");
+    write("bad.png", "this is no picture");
+    write("scene.toml",
+        "[animation]\nframes = \"1-2\"\n[[mesh]]\nname = \"m\"\nfile = \"m.obj\"\n[[material]]\nname = \"t\"\ntexture "
+        "= "
+        "\"bad.png\"\n[[instance]]\nmesh = \"m\"\nmaterial = \"t\"\n");
+    const RunResult r = run("render config.toml --keep-going --output out/p_#.png");
+    EXPECT_EQ(r.exitCode, 65) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/p_1.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/p_2.png")) << "drawn without its texture";
+}
+
 TEST_F(Errors, aGoodConfigDraws) {
     const RunResult r = run("render config.toml");
     EXPECT_EQ(r.exitCode, 0) << r.err;

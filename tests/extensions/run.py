@@ -3,9 +3,9 @@
 
     python3 tests/extensions/run.py FOLDER
 
-Each folder beside this script is one extension: files to add, and in change.patch what must be edited. The effect of the
-tutorial in src/README.md is taken from that page. Prints how many files each touches; more than here is a defect of the
-sources' layout.
+Each folder beside this script is one extension: files to add, and in change.patch what must be edited. The effect of
+the tutorial in src/README.md is taken from that page. Prints how many files each touches; more than here is a defect of
+the sources' layout.
 """
 
 import os

@@ -3,10 +3,10 @@
 
     python3 tests/mutants/mutants.py FOLDER [--count 50] [--seed 1] [--only NUMBER] [--log FILE]
 
-FOLDER keeps a copy of the sources with a build of its own. A mutant is a place in a shader or a source file, drawn with a
-fixed seed, where an operator, a comparison, a function or a number is another one. Those that do not compile are drawn
-again. Suites run from the quickest on, each until its first failure. Prints each mutant, what killed it, and how many
-survive; those that the table below explains change nothing that a test could see.
+FOLDER keeps a copy of the sources with a build of its own. A mutant is a place in a shader or a source file, drawn with
+a fixed seed, where an operator, a comparison, a function or a number is another one. Those that do not compile are
+drawn again. Suites run from the quickest on, each until its first failure. Prints each mutant, what killed it, and how
+many survive; those that the table below explains change nothing that a test could see.
 """
 
 import argparse

@@ -449,7 +449,7 @@ TEST(Parameters, eachStandsForItself) {
                           [&](const auto& other) { return other.name == f.name; }),
                 1);
             // Some value other than the default, by type.
-            const std::string was = f.type().text(f.member_(defaults.get()));
+            const std::string was = f.type().text(f.constMember(defaults.get()));
             std::string value = was == "true" ? "false" : "true";
             if (f.type().components == 1 || f.type().name == "integer")
                 value = was == numberText(f.info.min) || !std::isfinite(f.info.min)
@@ -468,8 +468,8 @@ TEST(Parameters, eachStandsForItself) {
             ASSERT_NO_THROW(applySettings(choice, fmt::format("{} = {}", f.name, value)))
                 << technique->name << "." << f.name << " = " << value;
             for (const auto& other : technique->schema) {
-                const bool same = other.type().text(other.member_(choice.params.get()))
-                    == other.type().text(other.member_(defaults.get()));
+                const bool same = other.type().text(other.constMember(choice.params.get()))
+                    == other.type().text(other.constMember(defaults.get()));
                 EXPECT_EQ(same, other.name != f.name)
                     << technique->name << ": setting " << f.name << " and looking at " << other.name;
             }

@@ -79,7 +79,7 @@ TEST(Params, whatIsWrittenReadsBackTheSame) {
     const Read r = read(toml);
     EXPECT_TRUE(r.errors.empty()) << toml;
     for (const auto& f : kBasket)
-        EXPECT_EQ(f.type().text(f.member_(&r.basket)), f.type().text(f.member(&basket))) << f.name;
+        EXPECT_EQ(f.type().text(f.constMember(&r.basket)), f.type().text(f.member(&basket))) << f.name;
 }
 
 TEST(Params, errorsNamePlaceProblemAndRemedy) {

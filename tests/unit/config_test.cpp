@@ -37,7 +37,7 @@ TEST(Config, acceptsEveryKeyThatTechniquesHave) {
         EXPECT_EQ(problems([&] { parse(choosing(*technique, "")); }), "") << technique->name;
         const auto defaults = technique->makeParams();
         for (const auto& field : technique->schema) {
-            const std::string value = field.type().text(field.member_(defaults.get()));
+            const std::string value = field.type().text(field.constMember(defaults.get()));
             EXPECT_EQ(problems([&] { parse(choosing(*technique, fmt::format(", {} = {}", field.name, value))); }), "")
                 << technique->slot << " " << technique->name << "." << field.name << " = " << value;
             ++keys;
@@ -68,6 +68,24 @@ TEST(Config, acceptsEveryAovThatItsSlotsMake) {
         const bool isRefused = problems([&] { parse(output); }).find("nothing makes the AOV") != std::string::npos;
         EXPECT_EQ(isRefused, !config.empty()) << aov->name;
     }
+}
+
+TEST(Config, settingsGoIntoATechniqueThatStandsByItsNameAlone) {
+    ConfigOverrides overrides;
+    overrides.settings = {"shading.bands=3", "ao.filter.iterations=2", "edges.0.width=4px"};
+    const Node document = parseDocument(
+        "scene = '/dev/null'\nshading = 'toon'\nedges = ['depth_normal']\n[ao]\ntechnique = 'hbao'\nfilter = "
+        "'gaussian'\n",
+        "test.toml");
+    const RenderConfig config = parseRenderConfig(document, "test.toml", overrides);
+    const auto value = [&](std::string_view slot, std::string_view name) {
+        const TechniqueChoice& choice = config.in(slot).front();
+        const Field& field = *findField(choice.technique->schema, name);
+        return field.type().text(field.constMember(choice.params.get()));
+    };
+    EXPECT_EQ(value("shading", "bands"), "3");
+    EXPECT_EQ(value("filter", "iterations"), "2");
+    EXPECT_EQ(value("edges", "width"), "\"4px\"");
 }
 
 TEST(Versions, ofFilesThatAreNewerAreRefused) {

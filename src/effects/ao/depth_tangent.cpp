@@ -196,7 +196,7 @@ void build(EffectBuilder& graph, const Params& params) {
         // One image that is both. What the lines' section says of it would have to agree.
         const LineParams defaults;
         for (const auto& f : kLineParams)
-            if (f.type().text(f.member_(lines->params.get())) != f.type().text(f.member_(&defaults)))
+            if (f.type().text(f.constMember(lines->params.get())) != f.type().text(f.constMember(&defaults)))
                 throw Error(ExitCode::usage, {},
                     fmt::format("depth_tangent stands in [ao] and in [[edges]], as one image, but [[edges]] sets '{}' "
                                 "for itself",

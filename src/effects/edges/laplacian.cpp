@@ -133,7 +133,7 @@ void build(EffectBuilder& graph, const Params& params) {
         constexpr std::size_t kMostWords = 4000;  // of the 16 KiB that every device gives to a uniform block
         if (words.size() > kMostWords)
             throw Error(ExitCode::badData, {},
-                fmt::format("laplacian: of {} objects none can be chosen", 32 * words.size()), "join some");
+                "the scene has too many objects and materials for laplacian to choose among", "join objects");
         pass.params = paramsBlock(kConstants, constants);
         appendWords(pass.params, "chosen", words);
     }
