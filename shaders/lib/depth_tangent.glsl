@@ -1,4 +1,4 @@
-// How the depth image bends at a pixel, and what paper 002 makes of it.
+// How the depth image bends at a pixel, and what that says about edges and hollows.
 
 // A difference as a share of the range → 1/(1 + s²): 1 where nothing differs, least where the difference is
 // `1/perBleach`, 1 again at twice that and beyond (or what `brightness` alone gives); without CUT as little beyond as

@@ -20,7 +20,8 @@ public:
             layer.image.channels == 4 && format_ == "jpeg";  // JPEG has none: what is left of the colour over black
         OIIO::ImageSpec spec(layer.image.width, height, dropsAlpha_ ? 3 : layer.image.channels,
             bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
-        spec.attribute("oiio:ColorSpace", layer.isColour ? "sRGB" : "Linear");
+        // OpenImageIO 2.4 writes TIFF's colour space into an EXIF directory, which, in memory, costs the image's own.
+        if (format_ != "tiff") spec.attribute("oiio:ColorSpace", layer.isColour ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         // The TIFF writer would put the present time: the same input must give the same bytes.
         spec.attribute("DateTime", "1970:01:01 00:00:00");

@@ -1,4 +1,4 @@
-// Ambient shading, or lines, or both, from how the depth image bends (paper 002).
+// Ambient shading, or lines, or both, from how the depth image bends.
 #include "lib/space.glsl"
 #include "lib/depth_tangent.glsl"
 

@@ -1,5 +1,5 @@
 // Outlines of chosen objects: where a mask of them changes between neighbouring pixels, which is where its Laplacian is
-// not 0 (paper 002).
+// not 0 (the outlines of the paper on depth tangents).
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"

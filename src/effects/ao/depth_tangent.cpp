@@ -1,5 +1,5 @@
-// Ambient shading from depth alone, by how a surface bends between a pixel and its neighbours: the post-processing
-// shader for edges and ambient shading of paper 002 (depth tangents).
+// Ambient shading from depth alone, by how a surface bends between a pixel and its neighbours: after a paper on one
+// post-processing shader for both edges and ambient shading, published in Pixel Bender and AGAL.
 //
 // Reads depth, nothing else; writes ambient_occlusion_raw, or edges, or where it stands in both slots one image,
 // depth_tangent, which cannot be split and multiplies the picture. Per neighbour p = Δdepth/range, b = p·(2 −
@@ -219,7 +219,7 @@ void buildLines(EffectBuilder& graph, const LineParams& params) {
 }
 
 const Technique kDepthTangent{"ao", "depth_tangent",
-    "How surfaces bend between a pixel and its neighbours, from depth alone (paper 002).", kParams, build,
+    "How surfaces bend between a pixel and its neighbours, from depth alone.", kParams, build,
     {{"paper", "As published, for ambient shading: contrast 64, r 7, bleach 0.05, brightness 0.1.",
          "reach = '7px', range_in = 'far', far_share = 0.8, contrast = 64, bleach = 0.05, brightness = 0.1, pairs = "
          "'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"},
@@ -236,8 +236,8 @@ const Technique kDepthTangent{"ao", "depth_tangent",
             "'single', rings = 1, neighbours = 'diagonal', tangent = 'raw'"}}};
 
 const Technique kDepthTangentLines{"edges", "depth_tangent",
-    "Lines where the depth image bends, from depth alone (paper 002); with ao = \"depth_tangent\" both in one pass.",
-    kLineParams, buildLines,
+    "Lines where the depth image bends, from depth alone; with ao = \"depth_tangent\" both in one pass.", kLineParams,
+    buildLines,
     {{"paper", "As published, for edges: contrast 26, r 1, bleach 1, brightness 0.",
          "reach = '1px', range_in = 'far', far_share = 0.8, contrast = 26, bleach = 1, brightness = 0, pairs = "
          "'single', rings = 1, neighbours = 'diagonal', tangent = 'raw', bends = 'concave', cut = true"},

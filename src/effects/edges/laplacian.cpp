@@ -1,4 +1,5 @@
-// Outlines of chosen objects, after paper 002: the Laplacian of a mask in which they are white and all else is black.
+// Outlines of chosen objects, as in the paper on depth tangents (depth_tangent.cpp): the Laplacian of a mask in which
+// they are white and all else is black.
 //
 // Reads depth, geometric normals and object numbers; with materials those too. Writes edges. Objects are chosen by
 // name, material or number; without a choice every object's boundary is drawn, found where neighbours have different
@@ -147,7 +148,7 @@ void build(EffectBuilder& graph, const Params& params) {
     strokeLines(graph, sides, stroke);
 }
 
-const Technique kLaplacian{"edges", "laplacian", "Outlines of chosen objects, or of all (paper 002).", kParams, build,
+const Technique kLaplacian{"edges", "laplacian", "Outlines of chosen objects, or of all.", kParams, build,
     {{"paper", "As published: black, one pixel wide, outside the object.",
         "width = '1px', color = '#000000', side = 'outer'"}}};
 
