@@ -63,6 +63,7 @@ struct ImageFormat {
     struct Traits {
         bool isMultiLayer = false;  ///< holds all layers in one file, numbers as they are
         bool needsLibrary = false;  ///< the image library's module must be loaded for it
+        bool isOpaque = false;      ///< holds no alpha: transparent parts come out black
     };
     /// `layers` say what will come (their images' width and channels), `height` how many rows; one layer unless
     /// multi-layer. Throws Error.

@@ -8,7 +8,8 @@ std::unique_ptr<ImageEncoder> openJpeg(
     return imageModule().openJpeg(layers.front(), height, metadata, options);
 }
 
-const ImageFormat kJpeg{{".jpg", ".jpeg"}, "8 bits, display-encoded, lossy", {.needsLibrary = true}, openJpeg};
+const ImageFormat kJpeg{
+    {".jpg", ".jpeg"}, "8 bits, display-encoded, lossy", {.needsLibrary = true, .isOpaque = true}, openJpeg};
 
 }  // namespace
 }  // namespace limn

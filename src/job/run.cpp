@@ -75,6 +75,10 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
             throw Error(ExitCode::usage, {path},
                 fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()),
                 "put {config} into --output, or give each its own output.path");
+    if (job.config.image.transparent && imageFormat(job.output)->traits.isOpaque)
+        log::warning(
+            "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,
+            job.output.string());
     if (!options.crop.empty()) job.crop = parseCrop(options.crop, job.config.image.size);
     return job;
 }

@@ -77,6 +77,16 @@ TEST_F(Errors, anImageThatFailsOnceFailsInEveryFrame) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/p_2.png")) << "drawn without its texture";
 }
 
+TEST_F(Errors, aTransparentJpegIsDrawnAndSaid) {
+    const RunResult jpeg = run("render config.toml --set image.background=transparent --output a.jpg");
+    EXPECT_EQ(jpeg.exitCode, 0);
+    EXPECT_NE(jpeg.err.find("'a.jpg' cannot be transparent"), std::string::npos) << jpeg.err;
+    for (const char* sound : {"--set image.background=transparent --output a.png", "--output a.jpg"}) {
+        const RunResult silent = run(std::string("render config.toml ") + sound);
+        EXPECT_EQ(silent.err.find("transparent"), std::string::npos) << silent.err;
+    }
+}
+
 TEST_F(Errors, aGoodConfigDraws) {
     const RunResult r = run("render config.toml");
     EXPECT_EQ(r.exitCode, 0) << r.err;
