@@ -4,21 +4,30 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "formats/format.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 namespace limn::cli {
 namespace {
 
-std::string vectorText(const glm::dvec3& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z); }
+/// As few digits as place a point to within `precision`, however far from the origin it lies.
+std::string vectorText(const glm::dvec3& v, double precision) {
+    const double steps = std::pow(10.0, std::ceil(-std::log10(precision)));
+    const auto digits = [&](double value) { return numberText(std::round(value * steps) / steps + 0.0); };
+    return fmt::format("[{}, {}, {}]", digits(v.x), digits(v.y), digits(v.z));
+}
 
-std::string tomlText(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result + "\"";
+/// As a shell reads it back: quoted where it must be.
+std::string shellText(const std::string& text) {
+    const std::string_view safe = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@%";
+    if (!text.empty() && text.find_first_not_of(safe) == std::string::npos) return text;
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+    return result + "'";
 }
 
 /// A commented scene of one mesh file.
@@ -29,8 +38,9 @@ std::string sceneText(const SceneAt& scene, const std::string& name, const std::
             materials += fmt::format(
                 "#\n# [[material]]              # replaces the material of that name\n# name = {}\n# color = "
                 "\"#d89c7a\"\n# shininess = 40           # a highlight; none at 1 or below\n",
-                tomlText(material));
+                jsonText(material));
     const auto& light = scene.lights.front();
+    const double precision = 1e-5 * glm::distance(scene.camera.position, scene.camera.lookAt);
     return fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
 version = 1
 up = "y"                     # or "z"
@@ -59,8 +69,8 @@ color = "#ffffff"
 intensity = 1
 shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
 {5})",
-        tomlText(name), tomlText(file), vectorText(scene.camera.position), vectorText(scene.camera.lookAt),
-        vectorText(light.direction), materials);
+        jsonText(name), jsonText(file), vectorText(scene.camera.position, precision),
+        vectorText(scene.camera.lookAt, precision), vectorText(light.direction, 1e-6), materials);
 }
 
 /// A commented config beside it.
@@ -77,15 +87,20 @@ camera = "main"
 path = {2}                   # .png .jpg .tif, or .exr with every AOV in one file
 aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal depth object_id ...
 )",
-        config, quickstartStyle(), tomlText(name + ".png"));
+        shellText(config), quickstartStyle(), jsonText(name + ".png"));
 }
 
 ExitCode run(const std::string& model, const std::string& folderText) {
     const std::filesystem::path folder = folderText;
+    if (!isMeshFile(model))
+        throw Error(ExitCode::usage, {model}, "is no mesh file",
+            "name an OBJ file; for a scene that exists, write a config that begins with scene = \"FILE\"");
     const LoadedScene loaded = loadScene(model);
     const SceneAt scene = sceneAt(loaded, {.sections = {}});
     const std::string name = std::filesystem::path(model).stem().string();
-    const auto scenePath = folder / "scene.toml", configPath = folder / (name + ".toml");
+    // A model called "scene" leaves that name to the scene.
+    const auto scenePath = folder / "scene.toml",
+               configPath = folder / (name == "scene" ? "picture.toml" : name + ".toml");
     for (const auto& path : {scenePath, configPath})
         if (std::filesystem::exists(path))
             throw Error(ExitCode::cannotCreate, {path.string()}, "exists already",
@@ -99,7 +114,7 @@ ExitCode run(const std::string& model, const std::string& folderText) {
     replaceFile(configPath, configText(configPath.string(), name));
     log::info("Saved: '{}'", scenePath.string());
     log::info("Saved: '{}'", configPath.string());
-    log::info("draw it with:  limn render {}", configPath.string());
+    log::info("draw it with:  limn render {}", shellText(configPath.string()));
     return ExitCode::done;
 }
 

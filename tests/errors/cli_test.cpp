@@ -1,6 +1,7 @@
 // What goes wrong, as a person meets it: the real program, its exit code, one clear message, and nothing half-written.
 
 #include "base/file.h"
+#include "image/image.h"
 #include "support/bench.h"
 
 #include <fmt/format.h>
@@ -275,6 +276,28 @@ TEST_F(Errors, initWritesSomethingThatDraws) {
     EXPECT_EQ(run("init m.obj --output start").exitCode, 73) << "what stands there is not overwritten";
     EXPECT_EQ(run("render m.obj").exitCode, 0);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "m.png"));
+}
+
+TEST_F(Errors, initFindsAModelFarFromTheOrigin) {
+    const glm::dvec3 far(458213, -5432110, 77);
+    write("it's far.obj", boxObj(far - 1.0, far + 1.0));
+    const RunResult made = run("init \"it's far.obj\" --output start");
+    EXPECT_NE(made.err.find("render 'start/it'\\''s far.toml'"), std::string::npos)
+        << "as a shell reads it: " << made.err;
+    ASSERT_EQ(run("render \"start/it's far.toml\" --set image.size=[64,64]").exitCode, 0);
+    const Image picture = readImage(folder.path() / "start/it's far.png");
+    int drawn = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) drawn += *picture.at(x, y) != *picture.at(0, 0);
+    EXPECT_GT(drawn, 64 * 64 / 10);
+}
+
+TEST_F(Errors, initKeepsSceneAndConfigApart) {
+    write("scene.obj", boxObj({-1, -1, -1}, {1, 1, 1}));
+    EXPECT_EQ(run("init scene.obj --output start").exitCode, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "start/scene.toml"));
+    EXPECT_EQ(run("check start/picture.toml").exitCode, 0);
+    expect("init scene.toml --output other", 64, "is no mesh file");
 }
 
 TEST_F(Errors, planDoctorAndTechniquesAnswer) {
