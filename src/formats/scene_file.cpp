@@ -158,6 +158,9 @@ public:
     }
 
     Scene read() {
+        if (document_.find("scene") && !document_.find("mesh"))
+            throw Error(ExitCode::badData, {document_.where.file}, "is a config, not a scene",
+                "name the scene that this config draws");
         static constexpr std::string_view sections[] = {
             "version", "units", "mesh", "instance", "camera", "light", "material", "section", "animation"};
         SceneHeader header;

@@ -125,6 +125,9 @@ public:
     }
 
     RenderConfig read() {
+        if (!document_.find("scene") && (document_.find("mesh") || document_.find("instance")))
+            throw Error(ExitCode::usage, {config_.file.string()}, "is a scene, not a config",
+                "write a config that begins with scene = \"FILE\", or have limn init write both for a mesh");
         std::vector<std::string_view> sections{"version", "image", "sheet", "output"};
         for (const auto& slot : allSlots())
             if (slot.parent().empty()) sections.push_back(slot.key);

@@ -292,6 +292,13 @@ TEST_F(Errors, initFindsAModelFarFromTheOrigin) {
     EXPECT_GT(drawn, 64 * 64 / 10);
 }
 
+TEST_F(Errors, scenesAndConfigsAreToldApart) {
+    for (const char* command : {"check", "render", "plan"})
+        expect(std::string(command) + " scene.toml", 64, "is a scene, not a config");
+    write("loop.toml", "scene = \"config.toml\"\n");
+    expect("render loop.toml", 65, "is a config, not a scene");
+}
+
 TEST_F(Errors, initKeepsSceneAndConfigApart) {
     write("scene.obj", boxObj({-1, -1, -1}, {1, 1, 1}));
     EXPECT_EQ(run("init scene.obj --output start").exitCode, 0);
