@@ -74,6 +74,7 @@ std::string meshFactsJson(const MeshFacts& f) {
     const TopologyReport& t = f.topology;
     const auto names = [](const std::vector<std::string>& list) {
         std::vector<std::string> quoted;
+        quoted.reserve(list.size());
         for (const auto& name : list) quoted.push_back(jsonText(name));
         return fmt::format("[{}]", fmt::join(quoted, ", "));
     };

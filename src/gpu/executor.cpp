@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <chrono>
 #include <optional>
 
@@ -291,6 +292,7 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
+        assert(depth || !colours.empty());
         // The fine raster, or the picture's own.
         const gl::Texture& any = colours.empty() ? *depth : *colours.front();
         drawSeen(view, scene, any.size().x / view.canvas.size.x, framebuffer, linked, depth);

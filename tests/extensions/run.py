@@ -126,6 +126,20 @@ look_at = [1, 0.5, 0]
 orthographic_height = 2
 """
 
+# Boxes side by side on a third: hollows in plain view.
+CORNER = (
+    SCENE.split("[[camera]]")[0]
+    + """
+[[instance]]
+mesh = "box"
+translate = [-1, -1, 0]
+scale = [4, 1, 4]
+[[camera]]
+position = [3, 3, 6]
+look_at = [1, 0, 1]
+"""
+)
+
 IMAGE = "[image]\nsize = [96, 64]\nsamples = 1\n"
 
 
@@ -170,9 +184,11 @@ def check(drawing, tutorial_config):
     expect(rounded(open_) == {0.25} and rounded(half["ambient_occlusion.Y"]) == {0.25, 1}, "half_open")
 
     plus = drawing.channels(IMAGE + "[ao]\ntechnique = 'half_open'\nfilter = 'plus'\n" + occlusion)
-    expect(rounded(plus["ambient_occlusion.Y"]) == {0.5, 0.75, 1}, "plus: means of 0.5 and 1")
+    expect(rounded(plus["ambient_occlusion.Y"]) == {0.5, 0.75, 0.875, 1}, "plus: 0.875 at the corners of 0.5 in 1")
 
-    levels = drawing.channels(IMAGE.replace("96, 64", "192, 128") + tutorial_config)
+    corner = Drawing(drawing.limn, os.path.join(drawing.folder, "corner"))
+    corner.write("scene.toml", CORNER)
+    levels = corner.channels(tutorial_config + IMAGE.replace("96, 64", "192, 128"))
     expect(rounded(levels["ambient_occlusion.Y"]) <= {0, 0.33333, 0.66667, 1}, "the tutorial's three levels")
     expect(len(rounded(levels["ambient_occlusion.Y"])) > 1, "the tutorial's picture has more than one of them")
 
