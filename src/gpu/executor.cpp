@@ -292,10 +292,10 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.drawings.empty()) {
-        assert(depth || !colours.empty());
         // The fine raster, or the picture's own.
-        const gl::Texture& any = colours.empty() ? *depth : *colours.front();
-        drawSeen(view, scene, any.size().x / view.canvas.size.x, framebuffer, linked, depth);
+        const gl::Texture* any = colours.empty() ? depth : colours.front();
+        assert(any);
+        drawSeen(view, scene, any->size().x / view.canvas.size.x, framebuffer, linked, depth);
     }
     for (const auto& drawing : pass.drawings) {
         gl::setViewport({drawing.viewport.x, drawing.viewport.y}, {drawing.viewport.z, drawing.viewport.w});
