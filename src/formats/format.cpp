@@ -3,6 +3,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace limn {
 namespace {
@@ -30,8 +31,10 @@ const Format* find(std::string_view extension) {
 
 template <class Format>
 const Format& formatOr(const std::filesystem::path& path, std::string_view standard) {
-    const Format* known = find<Format>(lowerCase(path.extension().string()));
-    return known ? *known : *find<Format>(standard);
+    const Format* format = find<Format>(lowerCase(path.extension().string()));
+    if (!format) format = find<Format>(standard);
+    assert(format);
+    return *format;
 }
 
 }  // namespace

@@ -268,8 +268,9 @@ public:
         usable_.resize(mesh_.positions.size());
         tbb::parallel_for(std::size_t{0}, mesh_.positions.size(), [&](std::size_t i) {
             const auto& p = mesh_.positions[i];
-            usable_[i] = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
+            const bool usable = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
                 && std::abs(p.z) <= kLargestCoordinate;
+            usable_[i] = usable ? 1 : 0;
         });
         mesh_.faceStart.reserve(faceCount + 1);
         mesh_.cornerPosition.reserve(corners);

@@ -288,9 +288,10 @@ private:
 
     void requireName(
         const Node& node, std::string_view key, const std::string& name, const std::set<std::string>& names) {
-        if (!node.find(key) || names.contains(name)) return;
+        const Node* given = node.find(key);
+        if (!given || names.contains(name)) return;
         const std::vector<std::string> candidates(names.begin(), names.end());
-        fail(node.find(key) ? *node.find(key) : node, fmt::format("there is no {} named '{}'", key, name),
+        fail(*given, fmt::format("there is no {} named '{}'", key, name),
             candidates.empty() ? fmt::format("add a [[{}]] with that name", key) : nameRemedy(name, candidates));
     }
 

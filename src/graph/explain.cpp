@@ -17,6 +17,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
 
 std::string jsonList(const std::vector<std::string>& words) {
     std::vector<std::string> texts;
+    texts.reserve(words.size());
     for (const auto& word : words) texts.push_back(jsonText(word));
     return "[" + joined(texts, ", ") + "]";
 }
