@@ -31,8 +31,6 @@ void bringInPages(std::size_t bytes) {
         if (!blocks[i]) return;
         const auto begin = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + page - 1) / page * page,
                    end = (reinterpret_cast<std::uintptr_t>(blocks[i].get()) + kBlock) / page * page;
-        // Pages are counted in addresses.
-        // NOLINTNEXTLINE(performance-no-int-to-ptr)
         madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
     });
 #else
