@@ -28,7 +28,7 @@ glm::dmat4 Instance::transform() const {
         glm::dmat4 result(1);
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < 4; ++column)
-                result[column][row] = matrix[static_cast<std::size_t>(row * 4 + column)];
+                result[column][row] = matrix[static_cast<std::size_t>(row) * 4 + static_cast<std::size_t>(column)];
         return result;
     }
     glm::dmat4 result = glm::translate(glm::dmat4(1), translate);

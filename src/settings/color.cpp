@@ -19,7 +19,7 @@ float srgbToLinear(float encoded) {
 
 std::optional<Color> parseHexColor(std::string_view text) {
     if ((text.size() != 4 && text.size() != 7) || text[0] != '#') return std::nullopt;
-    int digits[6];
+    int digits[6] = {};
     for (std::size_t i = 1; i < text.size(); ++i) {
         const char c = text[i];
         const int value = c >= '0' && c <= '9' ? c - '0'
