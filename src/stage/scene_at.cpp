@@ -144,6 +144,7 @@ Camera chooseCamera(const LoadedScene& loaded, const FrameRequest& request) {
         return cameras.empty() ? framingCamera(sceneInfo(loaded), request.imageSize)
                                : cameras.front().at(request.frame);
     std::vector<std::string> names;
+    names.reserve(cameras.size());
     for (const auto& camera : cameras) names.push_back(camera.base.name);
     const auto named = std::find(names.begin(), names.end(), request.camera);
     if (named == names.end())
