@@ -413,31 +413,21 @@ private:
                 != glm::dvec3(0);
         });
         if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return;
-        std::size_t kept = 0;
-        for (std::size_t t = 0; t < count; ++t) {
-            if (!keep[t]) continue;
-            const auto move = [&](std::vector<std::uint32_t>& values, std::size_t size) {
-                if (!values.empty())
-                    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size,
-                        values.begin() + static_cast<std::ptrdiff_t>(size * kept));
-            };
-            move(out_.indices, 3);
-            move(out_.normalIndices, 3);
-            move(out_.uvIndices, 3);
-            move(out_.colorIndices, 3);
-            move(out_.triangleMaterial, 1);
-            move(out_.trianglePart, 1);
-            ++kept;
-        }
-        const auto cut = [&](std::vector<std::uint32_t>& values, std::size_t size) {
-            if (!values.empty()) values.resize(size * kept);
+        struct PerTriangle {
+            std::vector<std::uint32_t>& values;
+            std::size_t size;
         };
-        cut(out_.indices, 3);
-        cut(out_.normalIndices, 3);
-        cut(out_.uvIndices, 3);
-        cut(out_.colorIndices, 3);
-        cut(out_.triangleMaterial, 1);
-        cut(out_.trianglePart, 1);
+        const PerTriangle lists[] = {{out_.indices, 3}, {out_.normalIndices, 3}, {out_.uvIndices, 3},
+            {out_.colorIndices, 3}, {out_.triangleMaterial, 1}, {out_.trianglePart, 1}};
+        for (const auto& [values, size] : lists) {
+            if (values.empty()) continue;
+            std::size_t kept = 0;
+            for (std::size_t t = 0; t < count; ++t)
+                if (keep[t])
+                    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(size * t), size,
+                        values.begin() + static_cast<std::ptrdiff_t>(size * kept++));
+            values.resize(size * kept);
+        }
     }
 
     const PolyMesh& cage_;
