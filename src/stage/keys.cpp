@@ -24,9 +24,11 @@ ContentKey materialKey(const Material& material, const ImageKeys& images) {
     key.add(name);
     addColor(key, color);
     for (const auto& file : {texture, cutout}) {
-        key.add(file);
+        // Content, not its place: a project is the same in every folder. What cannot be read has a name alone.
         if (const auto known = images.find(file); known != images.end())
             key.add(known->second.low).add(known->second.high);
+        else
+            key.add(file);
     }
     key.add(vertexColors).add(shininess).add(specular).add(lines);
     addOptional(key, lineColor);

@@ -267,6 +267,26 @@ TEST_F(Errors, theSameInputGivesTheSameBytes) {
     EXPECT_EQ(bytesOf(folder.path() / "frame_0001.exr"), alone);
 }
 
+TEST_F(Errors, aProjectMovedElsewhereGivesTheSameBytes) {
+    ASSERT_EQ(run("render config.toml --output weave.png").exitCode, 0);
+    std::vector<std::string> pictures;
+    for (const char* place : {"here", "over/there"}) {
+        const std::string at = std::string(place) + "/";
+        std::filesystem::create_directories(folder.path() / at);
+        std::filesystem::copy_file(folder.path() / "weave.png", folder.path() / (at + "weave.png"));
+        write(at + "m.obj", "vt 0 0\nvt 1 0\nvt 1 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/1 2/2 3/3\n");
+        write(at + "scene.toml",
+            "[[mesh]]\nname = \"m\"\nfile = \"m.obj\"\n[[material]]\nname = \"t\"\ntexture = \"weave.png\"\n"
+            "[[instance]]\nmesh = \"m\"\nmaterial = \"t\"\n");
+        write(at + "config.toml", kConfig);
+        const RunResult r = run("render " + at + "config.toml");
+        ASSERT_EQ(r.exitCode, 0) << r.err;
+        pictures.push_back(bytesOf(folder.path() / (at + "out/picture.png")));
+    }
+    EXPECT_GT(pictures[0].size(), 200u);
+    EXPECT_EQ(pictures[0], pictures[1]) << "what is told of a picture is told of its content";
+}
+
 TEST_F(Errors, initWritesSomethingThatDraws) {
     EXPECT_EQ(run("init m.obj --output start").exitCode, 0);
     const RunResult check = run("check start/m.toml");
