@@ -78,6 +78,8 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     struct stat info {};
     if (::fstat(fd, &info) != 0) throw readError(path, errno);
     if (S_ISDIR(info.st_mode)) throw readError(path, EISDIR);
+    if (!S_ISREG(info.st_mode))
+        throw Error(ExitCode::missingInput, {path.string()}, "is a pipe or a device", "write it to a file first");
     size_ = static_cast<std::size_t>(info.st_size);
     if (size_ == 0) return;
     void* mapped = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
@@ -104,6 +106,10 @@ std::string readFile(const std::filesystem::path& path) {
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) throw readError(path, errno);
         if (got == 0) return text;
+        // A device such as /dev/zero has no end.
+        if (text.size() > kLongestText)
+            throw Error(ExitCode::missingInput, {path.string()},
+                fmt::format("is longer than {} MiB", kLongestText >> 20), "no text that limn reads is: check the path");
         text.append(buffer.data(), static_cast<std::size_t>(got));
     }
 }

@@ -11,7 +11,8 @@
 
 namespace limn {
 
-/// The bytes of a file, mapped into memory and read-only; empty for an empty file. Throws Error.
+/// The bytes of a file, mapped into memory and read-only; empty for an empty file. Throws Error, for pipes and devices
+/// too.
 class MappedFile {
 public:
     explicit MappedFile(const std::filesystem::path& path);
@@ -29,7 +30,10 @@ private:
 /// Whether something is there. False too where it cannot be found out: opening it will tell why.
 bool fileExists(const std::filesystem::path& path);
 
-/// Throws Error when the file is missing, a folder, or cannot be read.
+/// What readFile takes: configs, materials and shaders are texts that people write. Meshes are mapped.
+inline constexpr std::size_t kLongestText = std::size_t{64} << 20;
+
+/// Throws Error when the file is missing, a folder, longer than kLongestText, or cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
 /// Replaces `path` by `bytes`, or leaves everything as it was. A temporary in the same folder is written with every

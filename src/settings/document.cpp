@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 // The parser asserts what it then reports as an error: a slip in a file must not end a debug build.
 #define TOML_ASSERT(expr) static_cast<void>(0)
+// Arrays and tables within values; parser, conversion and destructors go down by recursion.
+#define TOML_MAX_NESTED_VALUES 32
 // Its table of blanks (3.3) calls U+00A1 to U+0499 and others "unreachable": for the letter after a backslash in a long
 // string, and for one outside quotes, that is undefined behaviour. Those letters are no blanks; this header is read
 // first, with that answer.
@@ -21,6 +23,40 @@
 
 namespace limn {
 namespace {
+
+/// Throws Error at a key of more parts than any file needs: the parser bounds the depth of values, but each dot of a
+/// key nests a table too, and destructors go down by recursion.
+void refuseLongKeys(std::string_view text, const std::string& name) {
+    constexpr int mostDots = 32;
+    int dots = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '#') {
+            i = std::min(text.find('\n', i), text.size());
+            dots = 0;
+        } else if (c == '"' || c == '\'') {
+            const bool isLong = text.substr(i, 3) == std::string(3, c);
+            const std::string_view quotes = text.substr(i, isLong ? 3 : 1);
+            i += quotes.size();
+            while (i < text.size() && text.substr(i, quotes.size()) != quotes && (isLong || text[i] != '\n'))
+                i += c == '"' && text[i] == '\\' ? 2 : 1;
+            i += quotes.size();
+            // One or two quotes may stand right before the three that end a long string.
+            for (int inside = 0; isLong && inside < 2 && i < text.size() && text[i] == c; ++inside) ++i;
+            --i;
+        } else if (c == '.') {
+            if (++dots <= mostDots) continue;
+            const std::string_view before = text.substr(0, i);
+            const auto line = before.rfind('\n') + 1;  // 0 on the first line
+            throw Error(ExitCode::usage,
+                {name, static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+                    static_cast<int>(i - line) + 1},
+                fmt::format("this key has more than {} parts", mostDots), "no table lies that deep: look for the typo");
+        } else if (std::string_view("\n={}[],").find(c) != std::string_view::npos) {
+            dots = 0;
+        }
+    }
+}
 
 Location place(const toml::source_region& source, const std::string& file) {
     return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
@@ -80,8 +116,19 @@ void merge(Node& below, Node&& above) {
     below.where = above.where;
 }
 
-Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem::path>& open,
-    std::vector<std::filesystem::path>* files, const Location& from) {
+/// What has been read of a document so far.
+struct Reading {
+    std::vector<std::filesystem::path> open;   ///< from the outermost file to the one being read
+    std::vector<std::filesystem::path> files;  ///< every file, once per time it was read
+};
+
+Node readLayered(const std::filesystem::path& path, Reading& reading, const Location& from) {
+    // Files that include others twice over double at each step.
+    constexpr std::size_t mostFiles = 1000;
+    if (reading.files.size() == mostFiles)
+        throw Error(
+            ExitCode::usage, from, fmt::format("more than {} files are included", mostFiles), "include each file once");
+    auto& open = reading.open;
     std::error_code unknown;
     const auto key = std::filesystem::weakly_canonical(path, unknown);
     if (std::find(open.begin(), open.end(), key) != open.end())
@@ -96,7 +143,7 @@ Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem:
                 error.code, from, fmt::format("the included file '{}' {}", path.string(), error.problem), error.remedy);
         throw;
     }
-    if (files) files->push_back(path);
+    reading.files.push_back(path);
     Node document = parseDocument(text, path.string());
     Node* include = document.find("include");
     if (!include) return document;
@@ -109,7 +156,7 @@ Node readLayered(const std::filesystem::path& path, std::vector<std::filesystem:
             throw Error(ExitCode::usage, entry.where, "'include' must be a list of file names",
                 "write include = [\"style.toml\"]");
         const auto target = path.parent_path() / *entry.text();
-        merge(layered, readLayered(target, open, files, entry.where));
+        merge(layered, readLayered(target, reading, entry.where));
     }
     open.pop_back();
     auto& entries = std::get<Node::Table>(document.value);
@@ -131,6 +178,7 @@ bool isBeyondAscii(std::string_view text, const Location& where) {
 
 Node parseDocument(std::string_view text, const std::string& name) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    refuseLongKeys(text, name);
     try {
         return convert(toml::parse(text, name), name);
     } catch (const toml::parse_error& error) {
@@ -142,8 +190,10 @@ Node parseDocument(std::string_view text, const std::string& name) {
 }
 
 Node readDocument(const std::filesystem::path& path, std::vector<std::filesystem::path>* files) {
-    std::vector<std::filesystem::path> open;
-    return readLayered(path, open, files, {});
+    Reading reading;
+    Node document = readLayered(path, reading, {});
+    if (files) files->insert(files->end(), reading.files.begin(), reading.files.end());
+    return document;
 }
 
 /// The value of KEY=VALUE; it and whatever stands inside come from the command line.

@@ -5,11 +5,11 @@
 // crashes are not.
 
 #include "formats/obj.h"
+#include "formats/scene_file.h"
 #include "mesh/far.h"
 #include "mesh/subdivide.h"
 #include "mesh/topology.h"
 #include "render/config.h"
-#include "scene/scene.h"
 #include "settings/document.h"
 
 #include <algorithm>

@@ -4,8 +4,7 @@
 #   tests/fuzz/run.sh [SECONDS [obj|mtl|config]...]
 #
 # Without SECONDS, as a test: for LIMN_FUZZ_SECONDS each, or not at all (77) where that is not set or clang is
-# missing. Begins with the files of
-# LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
+# missing. Begins with the files of LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-${LIMN_FUZZ_SECONDS:-}}
@@ -16,8 +15,12 @@ if ! command -v clang++ >/dev/null || [ -z "$seconds" ]; then
 fi
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(obj mtl config)
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}" >/dev/null
+mkdir -p build/fuzz
+if ! { cmake --preset fuzz && cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"; } >build/fuzz/build.log 2>&1
+then
+    tail -n 40 build/fuzz/build.log
+    exit 1
+fi
 for target in "${targets[@]}"; do
     corpus=build/fuzz/corpus_$target
     mkdir -p "$corpus"
