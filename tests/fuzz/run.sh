@@ -4,7 +4,8 @@
 #   tests/fuzz/run.sh [SECONDS [obj|mtl|config]...]
 #
 # Without SECONDS, as a test: for LIMN_FUZZ_SECONDS each, or not at all (77) where that is not set or clang is
-# missing. Begins with the files of LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in build/fuzz/corpus_*.
+# missing. Begins with the files of LIMN_TEST_DATA and our own scenes; keeps what it finds interesting in
+# build/fuzz/corpus_*.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-${LIMN_FUZZ_SECONDS:-}}

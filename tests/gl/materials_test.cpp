@@ -140,12 +140,13 @@ TEST_F(Holes, keepTheirShareInTheDistance) {
         {"dots.pgm", [](double u, double v) {
              return std::hypot(std::fmod(u * 8, 1) - 0.5, std::fmod(v * 8, 1) - 0.5) < 0.178;
          }}};
+    constexpr int kSamples = 256;
     for (const auto& [name, isSolid] : masks) {
         mask(name, isSolid);
         const auto share = [&](double height, double side) {
             const std::string camera = fmt::format(
                 "[[camera]]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\northographic_height = {}\n", height);
-            const Picture p = draw(config("'shade'", "[shading]\ntechnique = 'flat'\n", 16),
+            const Picture p = draw(config("'shade'", "[shading]\ntechnique = 'flat'\n", kSamples),
                 scene(fmt::format("cutout = '{}'", name), true, camera));
             const float wall = p.aov("shade").at(30, 60)[1];
             double solid = 0;
@@ -155,9 +156,8 @@ TEST_F(Holes, keepTheirShareInTheDistance) {
         };
         const double near = share(4.4, 60 / 1.1), far = share(16, 15);
         EXPECT_GT(near, 0.03) << name;
-        // 16 samples of each of 225 pixels meet a share of 0.06 about 200 times: 15 % are two standard deviations of
-        // chance, and grids do better.
-        EXPECT_NEAR(far / near, 1, 0.15) << name;
+        // Three standard deviations of how often the samples of 15 × 15 pixels meet such a share by chance.
+        EXPECT_NEAR(far / near, 1, 3 / std::sqrt(kSamples * 15 * 15 * near)) << name;
     }
 }
 

@@ -23,7 +23,9 @@ struct Picture {
     RenderedFrame frame;
     const Image& aov(const std::string& name) const;
 };
-/// Draws, and fails the test on any GL message or non-finite value.
+/// Draws, and fails the test on any GL message or non-finite value. To see whether a comparison of pictures would
+/// notice anything, LIMN_TEST_ONE_SIDE = "lens 2" draws the process's second picture through a lens 2 % longer, and
+/// "values 2" makes its values 2 % larger: tests/gl/one_side_test.cpp.
 Picture draw(const RenderConfig& config, const LoadedScene& scene, const RenderOptions& options = {}, int frame = 1);
 
 // Meshes as OBJ text.
