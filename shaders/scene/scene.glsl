@@ -136,6 +136,9 @@ struct Material {
     int layer;        // of the atlas
     bool hasHoles;    // where the texture's alpha is below one half
     bool takesVertexColors;
+    bool isSharp;      // the texture's texels are seen as squares
+    bool repeats;      // the texture, beyond its borders; else these go on
+    uint number;       // of the material
     ivec4 place;       // xy: level 0 in the atlas; zw: its size, in texels
     vec2 hatch;        // across hatching lines, 1 over their distance in pixels long; 0: none
     float hatchWidth;  // pixels
@@ -143,12 +146,16 @@ struct Material {
 };
 
 Material materialAt(uint number) {
-    int at = int(number) * 5;
+    int at = int(number) * 6;
     vec4 a = texelFetch(materials, at), b = texelFetch(materials, at + 1), c = texelFetch(materials, at + 2),
          d = texelFetch(materials, at + 3), e = texelFetch(materials, at + 4);
-    return Material(
-        a.rgb, int(a.a), b.x, b.y, int(b.z), (int(b.w) & 1) != 0, (int(b.w) & 2) != 0, ivec4(c), d.xy, d.z, e.rgb);
+    int flags = int(b.w);
+    return Material(a.rgb, int(a.a), b.x, b.y, int(b.z), (flags & 1) != 0, (flags & 2) != 0, (flags & 4) != 0,
+        (flags & 8) != 0, number, ivec4(c), d.xy, d.z, e.rgb);
 }
+
+// xy: what texture coordinates are multiplied by; zw: what is added then.
+vec4 texturePlacing(Material material) { return texelFetch(materials, int(material.number) * 6 + 5); }
 
 // The material's colour under its hatching, at a place in the picture (pixels): lines as if drawn, a pixel covered as
 // far as it is.

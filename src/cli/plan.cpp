@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "cli/commands.h"
+#include "image/image.h"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,12 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
                 for (std::int64_t frame = first; loaded.scene.frames && frame <= loaded.scene.frames->last; ++frame)
                     static_cast<void>(loaded.meshes->at(static_cast<int>(frame)));
             static_cast<void>(session.plan(config, first));
+            ErrorCollector damaged;
+            const ImageKeys fromMeshes = loaded.meshes->imageKeys();
+            // What passes is drawn: images that cannot be decoded would end the render.
+            for (const auto* images : {&loaded.images, &fromMeshes})
+                for (const auto& [file, key] : *images) damaged.run([&] { static_cast<void>(readImage(file)); });
+            damaged.throwIfAny();
             log::info("{}: fine", path);
         });
     errors.throwIfAny();

@@ -65,7 +65,8 @@ std::string meshFactsText(const MeshFacts& f) {
     line("subdivision", f.subdivision);
     for (const auto& w : f.warnings)
         line("warning",
-            fmt::format("{}{}{}", w.firstLine > 0 ? fmt::format("line {}: ", w.firstLine) : "", w.kind,
+            fmt::format("{}{}{}{}", w.file.empty() ? "" : w.file + ": ",
+                w.firstLine > 0 ? fmt::format("line {}: ", w.firstLine) : "", w.kind,
                 w.count > 1 ? fmt::format(" ({} times)", w.count) : ""));
     return out;
 }
@@ -80,8 +81,8 @@ std::string meshFactsJson(const MeshFacts& f) {
     };
     std::vector<std::string> warnings;
     for (const auto& w : f.warnings)
-        warnings.push_back(
-            fmt::format("{{\"kind\": {}, \"count\": {}, \"first_line\": {}}}", jsonText(w.kind), w.count, w.firstLine));
+        warnings.push_back(fmt::format("{{\"kind\": {}, \"count\": {}, \"file\": {}, \"first_line\": {}}}",
+            jsonText(w.kind), w.count, jsonText(w.file.empty() ? f.file : w.file), w.firstLine));
     const auto number = [](double value) {
         return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string("null");
     };

@@ -1,4 +1,5 @@
 #include "formats/obj.h"
+#include "formats/mtl.h"
 
 #include "base/file.h"
 #include "formats/format.h"

@@ -1,6 +1,6 @@
 #include "gpu/atlas.h"
 
-#include "base/error.h"
+#include "base/log.h"
 #include "image/texture.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ struct Layout {
 };
 
 /// Shelves: tallest first, left to right, then the next shelf, then the next layer.
-Layout layOut(const std::map<Files, MipChain>& chains, int maxTextureSize) {
+Layout layOut(const std::map<Files, MipChain>& chains) {
     Layout layout;
     std::vector<std::pair<Files, const MipChain*>> order;
     int& side = layout.side;
@@ -30,10 +30,6 @@ Layout layOut(const std::map<Files, MipChain>& chains, int maxTextureSize) {
         order.emplace_back(files, &chain);
         const glm::ivec2 footprint = chain.footprint();
         while (side < std::max(footprint.x, footprint.y)) side *= 2;
-        if (side > maxTextureSize)
-            throw Error(ExitCode::outOfMemory, {files.first.empty() ? files.second : files.first},
-                fmt::format("the texture of {}×{} is larger than this GL device allows", chain.size.x, chain.size.y),
-                "make it smaller");
     }
     std::stable_sort(order.begin(), order.end(),
         [](const auto& a, const auto& b) { return a.second->footprint().y > b.second->footprint().y; });
@@ -58,6 +54,19 @@ Layout layOut(const std::map<Files, MipChain>& chains, int maxTextureSize) {
     return layout;
 }
 
+/// The mip chain of a material's images, made smaller where the device's textures are not large enough for it.
+MipChain chainOf(const Files& files, int maxTextureSize) {
+    Image image = readTexture(files.first, files.second);
+    // A chain is half as wide again as its first level.
+    const int width = image.width, height = image.height;
+    image = shrunk(std::move(image), maxTextureSize / 3 * 2);
+    if (image.width != width)
+        log::warning(
+            "{}: with mip levels beside it an image of {}×{} texels does not fit into a texture; drawn with {}×{}",
+            files.first.empty() ? files.second : files.first, width, height, image.width, image.height);
+    return makeMipChain(std::move(image), !files.second.empty());
+}
+
 }  // namespace
 
 void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
@@ -68,9 +77,8 @@ void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
     std::map<Files, MipChain> chains;
     for (const auto& material : scene.materials)
         if (!material.texture.empty() || !material.cutout.empty()) chains[filesOf(material)];
-    for (auto& [files, chain] : chains)
-        chain = makeMipChain(readTexture(files.first, files.second), !files.second.empty());
-    Layout layout = layOut(chains, maxTextureSize);
+    for (auto& [files, chain] : chains) chain = chainOf(files, maxTextureSize);
+    Layout layout = layOut(chains);
     if (!chains.empty()) texture_ = gl::Texture::pictureArray(layout.side, layout.layers, "texture atlas");
     for (const auto& [files, chain] : chains)
         for (int l = 0; l < chain.levels(); ++l)

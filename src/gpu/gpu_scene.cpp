@@ -48,11 +48,12 @@ struct GpuMaterial {
     float place[4];
     float hatchX, hatchY, hatchWidth, padding2;
     float hatchColor[4];
+    float textureScale[2], textureOffset[2];
 };
-static_assert(sizeof(GpuMaterial) == 5 * 16);
+static_assert(sizeof(GpuMaterial) == 6 * 16);
 
 // Of GpuMaterial::flags.
-constexpr int kHasHoles = 1, kTakesVertexColors = 2;
+constexpr int kHasHoles = 1, kTakesVertexColors = 2, kIsSharp = 4, kRepeats = 8;
 
 constexpr std::uint32_t kNoWords = ~0u;
 
@@ -114,10 +115,14 @@ std::vector<std::uint32_t> besideTriangles(const std::vector<std::uint32_t>& ind
 
 GpuMaterial packMaterial(const Material& m, const AtlasPlace& place) {
     const auto number = [](int value) { return static_cast<float>(value); };
+    const int flags = (m.cutout.empty() ? 0 : kHasHoles) | (m.vertexColors ? kTakesVertexColors : 0)
+        | (isSharp(m.textureFilter, place.size) ? kIsSharp : 0) | (m.textureRepeats ? kRepeats : 0);
+    const glm::vec2 scale(m.textureScale), offset(m.textureOffset);
     GpuMaterial gpu{{m.color.r, m.color.g, m.color.b}, number(place.levels), m.shininess, m.specular,
-        number(place.corner.z), number((m.cutout.empty() ? 0 : kHasHoles) | (m.vertexColors ? kTakesVertexColors : 0)),
+        number(place.corner.z), number(flags),
         {number(place.corner.x), number(place.corner.y), number(place.size.x), number(place.size.y)}, 0, 0,
-        static_cast<float>(m.hatch.width), 0, {m.hatch.color.r, m.hatch.color.g, m.hatch.color.b, 0}};
+        static_cast<float>(m.hatch.width), 0, {m.hatch.color.r, m.hatch.color.g, m.hatch.color.b, 0},
+        {scale.x, scale.y}, {offset.x, offset.y}};
     if (m.hatch.spacing > 0) {  // across the lines, one per distance between them
         gpu.hatchX = static_cast<float>(-std::sin(glm::radians(m.hatch.angle)) / m.hatch.spacing);
         gpu.hatchY = static_cast<float>(std::cos(glm::radians(m.hatch.angle)) / m.hatch.spacing);

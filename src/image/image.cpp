@@ -157,4 +157,6 @@ std::vector<std::byte> encodeImage(
 
 Image readImage(const std::filesystem::path& path) { return imageModule().read(path); }
 
+ImageInfo readImageInfo(const std::filesystem::path& path) { return imageModule().readInfo(path); }
+
 }  // namespace limn

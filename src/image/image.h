@@ -89,6 +89,17 @@ std::string imageExtensions();
 std::vector<std::byte> encodeImage(
     const ImageFormat& format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options);
 
+/// What the header of an image file says.
+struct ImageInfo {
+    int width = 0, height = 0, channels = 0;
+    /// Grey or colours with alpha.
+    bool hasAlpha() const { return channels == 2 || channels == 4; }
+};
+/// Throws Error, for images too large to be read as well: more than kMostPixels.
+ImageInfo readImageInfo(const std::filesystem::path& path);
+/// 4 GiB as floats with alpha.
+inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+
 /// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.
 Image readImage(const std::filesystem::path& path);
 

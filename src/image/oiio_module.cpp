@@ -90,23 +90,43 @@ std::unique_ptr<ImageEncoder> openTiff(
     return std::make_unique<OiioEncoder>("tiff", layer, height, metadata, options, options.bits);
 }
 
-Image read(const std::filesystem::path& path) {
-    const auto fail = [&](const std::string& why) {
-        throw Error(ExitCode::badData, {path.string()}, fmt::format("the image cannot be read ({})", why),
-            "save it again as PNG, JPEG, TIFF or EXR");
-    };
+[[noreturn]] void fail(const std::filesystem::path& path, std::string why) {
+    // The library names the file itself, and says things over several lines.
+    why = why.substr(0, why.find('\n'));
+    if (const auto own = why.find(" (\"" + path.string()); own != std::string::npos) why.resize(own);
+    throw Error(ExitCode::badData, {path.string()}, fmt::format("the image cannot be read ({})", why),
+        "save it again as PNG, JPEG, TIFF or EXR");
+}
+
+std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::open(path.string(), &hints);
-    if (!input) fail(OIIO::geterror());
+    auto input = OIIO::ImageInput::open(path.string(), &hints);
+    if (!input) fail(path, OIIO::geterror());
     const auto& spec = input->spec();
-    constexpr int kLargest = 1 << 16;
-    if (spec.width < 1 || spec.height < 1 || spec.width > kLargest || spec.height > kLargest || spec.nchannels < 1)
-        fail("unusable size");
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail(path, "it has no pixels");
+    if (std::int64_t{spec.width} * spec.height > kMostPixels)
+        throw Error(ExitCode::outOfMemory, {path.string()},
+            fmt::format("the image has {}×{} pixels, more than the {} million that limn reads", spec.width, spec.height,
+                kMostPixels >> 20),
+            "make it smaller");
+    return input;
+}
+
+ImageInfo readInfo(const std::filesystem::path& path) {
+    const auto input = open(path);
+    const auto& spec = input->spec();
+    return {spec.width, spec.height, spec.nchannels};
+}
+
+Image read(const std::filesystem::path& path) {
+    const auto input = open(path);
+    const auto& spec = input->spec();
     Image image{spec.width, spec.height, std::min(spec.nchannels, 4), {}};
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)
         * static_cast<std::size_t>(image.channels));
-    if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeFloat, image.pixels.data())) fail(input->geterror());
+    if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeFloat, image.pixels.data()))
+        fail(path, input->geterror());
     // Integer pictures are display-encoded unless they say otherwise; float pictures are linear.
     const auto space =
         spec.get_string_attribute("oiio:ColorSpace", spec.format.is_floating_point() ? "Linear" : "sRGB");
@@ -121,4 +141,4 @@ Image read(const std::filesystem::path& path) {
 }  // namespace
 }  // namespace limn
 
-extern "C" const limn::ImageModule limnImageModule{limn::openJpeg, limn::openTiff, limn::read};
+extern "C" const limn::ImageModule limnImageModule{limn::openJpeg, limn::openTiff, limn::read, limn::readInfo};

@@ -81,6 +81,28 @@ Image readTexture(const std::string& colors, const std::string& holes) {
     return texture;
 }
 
+Image shrunk(Image texture, int longest) {
+    glm::ivec2 size(texture.width, texture.height);
+    while (std::max(size.x, size.y) > longest) size = glm::max(size / 2, glm::ivec2(1));
+    return size == glm::ivec2(texture.width, texture.height) ? std::move(texture) : resize(texture, size);
+}
+
+bool isAlphaMask(const std::string& file) {
+    if (!readImageInfo(file).hasAlpha()) return false;
+    const Image image = readImage(file);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const std::size_t texels = image.pixels.size() / channels;
+    std::size_t clear = 0, plain = 0;
+    // Compression and filtering leave alphas that are nearly 0 or 1.
+    constexpr float slack = 8.0f / 255;
+    for (std::size_t i = channels - 1; i < image.pixels.size(); i += channels) {
+        const float alpha = image.pixels[i];
+        clear += alpha < 0.5f;
+        plain += alpha < slack || alpha > 1 - slack;
+    }
+    return clear > 0 && 2 * plain > texels;
+}
+
 namespace {
 
 /// The share of texels that are no hole.

@@ -17,6 +17,13 @@ namespace limn {
 /// as large as the larger. Throws what readImage throws.
 Image readTexture(const std::string& colors, const std::string& holes);
 
+/// Made smaller, by halves, until no side is longer than `longest`.
+Image shrunk(Image texture, int longest);
+
+/// Does the alpha of an image cut shapes out: most of it is 0 or 1, and some of it is below one half? Throws what
+/// readImage throws.
+bool isAlphaMask(const std::string& file);
+
 /// All mip levels of an 8-bit sRGB picture, laid out in a rectangle 1.5 times as wide: level 0 left, the others in a
 /// column to its right.
 struct MipChain {

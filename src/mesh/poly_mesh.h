@@ -66,7 +66,8 @@ struct PolyMesh {
 struct MeshWarning {
     std::string kind;  ///< "face refers to a vertex that does not exist; dropped"
     std::size_t count = 0;
-    int firstLine = 0;
+    int firstLine = 0;  ///< 0: of the whole file
+    std::string file;   ///< empty: the mesh's own
 };
 
 }  // namespace limn

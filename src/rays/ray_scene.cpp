@@ -40,19 +40,31 @@ Tree makeScene(RTCDevice device) {
     return scene;
 }
 
-/// What Embree needs to know to let rays through the holes of a mesh.
-struct Holes {
-    std::vector<const Image*> mask;  ///< of each triangle; null: it has none
-    std::vector<glm::vec2> uvs;      ///< three per triangle
+/// Where a material has holes.
+struct Mask {
+    const Image* image;
+    glm::vec2 scale, offset;  ///< of texture coordinates
+    bool repeats, isSharp;
 };
 
-float alphaAt(const Image& mask, glm::vec2 uv) {
-    // Bilinear, repeating, as shaders/lib/texture.glsl does.
-    const glm::vec2 size(mask.width, mask.height), at = (uv - glm::floor(uv)) * size - 0.5f, cell = glm::floor(at),
-                                                   f = at - cell;
+/// What Embree needs to know to let rays through the holes of a mesh.
+struct Holes {
+    std::vector<const Mask*> mask;  ///< of each triangle; null: it has none
+    std::vector<glm::vec2> uvs;     ///< three per triangle, as the mask counts them
+};
+
+float alphaAt(const Mask& mask, glm::vec2 uv) {
+    // Bilinear, as shaders/lib/texture.glsl does; of sharp texels the nearest.
+    const Image& image = *mask.image;
+    const glm::ivec2 count(image.width, image.height);
+    const glm::vec2 inside = mask.repeats ? uv - glm::floor(uv) : glm::clamp(uv, 0.0f, 1.0f),
+                    at = inside * glm::vec2(count) - 0.5f, cell = glm::floor(at);
+    const glm::vec2 f = mask.isSharp ? glm::floor(at - cell + 0.5f) : at - cell;
     const auto texel = [&](int x, int y) {
-        return mask.at((static_cast<int>(cell.x) + x + mask.width) % mask.width,
-            (static_cast<int>(cell.y) + y + mask.height) % mask.height)[3];
+        const glm::ivec2 place = glm::ivec2(cell) + glm::ivec2(x, y);
+        const glm::ivec2 known =
+            mask.repeats ? (place + count) % count : glm::clamp(place, glm::ivec2(0), count - glm::ivec2(1));
+        return image.at(known.x, known.y)[3];
     };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
@@ -101,35 +113,42 @@ struct RayScene::Trees {
     TreeDevice device;
     std::vector<Tree> shared;
     Tree top;
-    std::map<std::string, Image> masks;  ///< by their files
+    std::map<std::string, Image> images;  ///< of holes, by their files
+    std::map<std::uint32_t, Mask> masks;  ///< by the number of the material
     std::vector<std::unique_ptr<Holes>> holes;
 
-    /// For each of the mesh's materials, as an instance shows it, the image that cuts holes; empty where none does.
-    std::vector<const Image*> masksOf(const SceneAt& scene, const DrawInstance& instance) {
-        std::vector<const Image*> list;
+    /// For each of the mesh's materials, as an instance shows it, what cuts holes; empty where none does.
+    std::vector<const Mask*> masksOf(const SceneAt& scene, const DrawInstance& instance) {
+        std::vector<const Mask*> list;
         for (const auto number : instance.materials) {
             const Material& material = scene.materials[number];
-            const Image* mask = nullptr;
-            if (!material.cutout.empty()) {
-                auto [it, isNew] = masks.try_emplace(material.cutout);
-                if (isNew) it->second = readTexture("", material.cutout);
-                mask = &it->second;
+            if (material.cutout.empty()) {
+                list.push_back(nullptr);
+                continue;
             }
-            list.push_back(mask);
+            auto [image, isNew] = images.try_emplace(material.cutout);
+            if (isNew) image->second = readTexture("", material.cutout);
+            const glm::ivec2 size(image->second.width, image->second.height);
+            const Mask mask{&image->second, material.textureScale, material.textureOffset, material.textureRepeats,
+                isSharp(material.textureFilter, size)};
+            list.push_back(&masks.try_emplace(number, mask).first->second);
         }
-        if (std::all_of(list.begin(), list.end(), [](const Image* mask) { return !mask; })) list.clear();
+        if (std::all_of(list.begin(), list.end(), [](const Mask* mask) { return !mask; })) list.clear();
         return list;
     }
 
-    Holes* holesOf(const TriMesh& mesh, const std::vector<const Image*>& maskOf) {
+    Holes* holesOf(const TriMesh& mesh, const std::vector<const Mask*>& maskOf) {
         if (maskOf.empty()) return nullptr;
         auto& made = *holes.emplace_back(std::make_unique<Holes>());
         made.mask.reserve(mesh.triangleCount());
         made.uvs.reserve(3 * mesh.triangleCount());
         for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-            made.mask.push_back(maskOf[mesh.triangleMaterial.empty() ? 0 : mesh.triangleMaterial[t]]);
-            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
-                made.uvs.push_back(mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]]);
+            const Mask* mask = maskOf[mesh.triangleMaterial.empty() ? 0 : mesh.triangleMaterial[t]];
+            made.mask.push_back(mask);
+            for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+                const glm::vec2 uv = mesh.uvs[mesh.uvIndices.empty() ? mesh.indices[k] : mesh.uvIndices[k]];
+                made.uvs.push_back(mask ? uv * mask->scale + mask->offset : uv);
+            }
         }
         return &made;
     }
@@ -143,7 +162,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
     RTCDevice device = trees_->device.get();
     trees_->top = makeScene(device);
     // Instances share a tree where they share a mesh and the holes in it.
-    using Look = std::pair<const TriMesh*, std::vector<const Image*>>;
+    using Look = std::pair<const TriMesh*, std::vector<const Mask*>>;
     std::vector<Look> looks;
     std::map<Look, int> uses;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)

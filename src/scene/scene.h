@@ -16,6 +16,17 @@ enum class Axis { y, z };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<Axis> = {"y", "z"};
 
+/// How a texture is read between its texels. Automatic: as nearest where it has at most 64 texels a side, for it was
+/// drawn texel by texel; else as linear.
+enum class TextureFilter { automatic, linear, nearest };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<TextureFilter> = {"automatic", "linear", "nearest"};
+/// Are the texels of an image of this size seen as squares?
+inline bool isSharp(TextureFilter filter, glm::ivec2 size) {
+    return filter == TextureFilter::nearest
+        || (filter == TextureFilter::automatic && std::max(size.x, size.y) <= 64 && std::max(size.x, size.y) > 1);
+}
+
 enum class LightKind { sun, point, spot };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<LightKind> = {"sun", "point", "spot"};
@@ -37,6 +48,10 @@ struct Material {
     std::string texture;  ///< image file multiplied onto the colour; empty = none
     std::string cutout;   ///< image file: where its alpha, or without alpha its brightness, is below one half there is
                           ///< nothing; empty = none
+    glm::dvec2 textureScale{1};   ///< of texture coordinates, before
+    glm::dvec2 textureOffset{0};  ///< is added: 2 shows the image twice, 0.5 moves it by half of itself
+    bool textureRepeats = true;   ///< false: beyond the image its border goes on
+    TextureFilter textureFilter = TextureFilter::automatic;
     bool vertexColors = true;  ///< multiply the mesh's vertex colours, where it has any, onto the colour
     float shininess = 0;       ///< Blinn–Phong exponent; no highlight at 1 or below
     float specular = 1;        ///< strength of the highlight

@@ -17,8 +17,8 @@ void addVector(KeyBuilder& key, const glm::dvec3& v) { key.add(v.x).add(v.y).add
 // Structured bindings name every member: one that is added to a struct and forgotten here does not compile.
 
 ContentKey materialKey(const Material& material, const ImageKeys& images) {
-    const auto& [name, color, texture, cutout, vertexColors, shininess, specular, lines, lineColor, creaseAngle, isCut,
-        hatch] = material;
+    const auto& [name, color, texture, cutout, scale, offset, repeats, filter, vertexColors, shininess, specular, lines,
+        lineColor, creaseAngle, isCut, hatch] = material;
     const auto& [spacing, width, angle, hatchColor] = hatch;
     KeyBuilder key;
     key.add(name);
@@ -30,6 +30,7 @@ ContentKey materialKey(const Material& material, const ImageKeys& images) {
         else
             key.add(file);
     }
+    key.add(scale.x).add(scale.y).add(offset.x).add(offset.y).add(repeats).add(filter);
     key.add(vertexColors).add(shininess).add(specular).add(lines);
     addOptional(key, lineColor);
     key.add(creaseAngle).add(isCut).add(spacing).add(width).add(angle);

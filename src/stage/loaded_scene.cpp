@@ -2,7 +2,9 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "formats/creases.h"
+#include "image/texture.h"
 #include "mesh/topology.h"
 #include "stage/edge_rates.h"
 
@@ -44,11 +46,37 @@ MeshFile readMesh(const MeshSource& source, int frame) {
     return mesh;
 }
 
+/// Exporters name a leaf's image once: what its alpha cuts out of the colours is not there. Of the materials that a
+/// mesh file brings along; a scene says itself what cuts holes.
+void adoptAlpha(MeshFile& mesh) {
+    std::vector<Error> told;  // by whoever draws or checks the image
+    for (auto& material : mesh.materials)
+        collect(told, [&] {
+            if (material.cutout.empty() && !material.texture.empty() && isAlphaMask(material.texture))
+                material.cutout = material.texture;
+        });
+}
+
 void warnOf(const MeshFile& mesh) {
     for (const auto& warning : mesh.warnings)
-        log::warning("{}{}: {}{}", mesh.files.front().string(),
+        log::warning("{}{}: {}{}", warning.file.empty() ? mesh.files.front().string() : warning.file,
             warning.firstLine > 0 ? fmt::format(":{}", warning.firstLine) : "", warning.kind,
             warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
+}
+
+/// Names the materials that the faces of a mesh ask for, and nobody has.
+void warnOfMaterials(const MeshFile& mesh, const Scene& scene) {
+    if (mesh.materials.empty()) return;  // there is no library, or that it is missing has been said
+    std::vector<std::string> known, ofScene;
+    for (const auto& material : mesh.materials) known.push_back(material.name);
+    for (const auto& material : scene.materials) ofScene.push_back(material.base.name);
+    const auto has = [](const auto& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const auto& name : mesh.poly.materialNames)
+        if (!name.empty() && !has(known, name) && !has(ofScene, name))
+            log::warning("{}: material '{}' is in no library ({}); drawn paper grey", mesh.files.front().string(), name,
+                nameRemedy(name, known));
 }
 
 void addImage(ImageKeys& keys, const std::string& file) {
@@ -84,6 +112,7 @@ struct MeshLibrary::State {
         tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t w) {
             collect(failed[w], [&] {
                 meshes[w] = readMesh(sources[wanted[w]], frame);
+                adoptAlpha(meshes[w]);
                 for (const auto& material : meshes[w].materials)
                     for (const auto& image : {material.texture, material.cutout}) addImage(shown[w], image);
             });
@@ -181,6 +210,8 @@ LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subd
 
     const int first = loaded.scene.firstFrame();
     const auto meshes = loaded.meshes->at(first);
+    for (const auto& mesh : meshes)
+        if (mesh) warnOfMaterials(*mesh, loaded.scene);
     for (const auto& instance : loaded.scene.instances) {
         const Instance placed = instance.at(first);
         loaded.bounds.add(instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, placed.transform()));

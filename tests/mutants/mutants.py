@@ -144,6 +144,7 @@ def main():
             print(text, file=log, flush=True)
 
     tried = killed = explained = 0
+    is_stale = False  # is a mutant compiled into the programs that is no more in the sources?
     for name, line, column, old, new in draw_sites(options.count, options.seed):
         if tried == options.count:
             break
@@ -160,8 +161,11 @@ def main():
         begin = time.time()
         shader = bool(SHADER.match(name))
         try:
-            if not shader and not copy.make():
-                continue  # does not compile: no mutant
+            if is_stale or not shader:
+                is_stale = True
+                if not copy.make():
+                    continue  # does not compile: no mutant
+                is_stale = not shader
             killer = copy.kill(shader)
         finally:
             with open(path, "w") as f:

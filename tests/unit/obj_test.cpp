@@ -1,4 +1,5 @@
 #include "formats/obj.h"
+#include "base/error.h"
 #include "mesh/tri_mesh.h"
 
 #include <fmt/format.h>
@@ -200,24 +201,6 @@ TEST(TriMesh, farFromTheOriginKeepsItsShape) {
         parse("v 1e8 1e8 0\nv 100000001 1e8 0\nv 100000001 100000001 0\nv 1e8 100000001 0\nf 1 2 3 4\n").mesh, {});
     EXPECT_EQ(near.positions, far.positions);
     EXPECT_EQ(far.pivot - near.pivot, glm::dvec3(1e8, 1e8, 0));
-}
-
-TEST(Mtl, readsColoursTexturesAndHighlights) {
-    std::vector<MeshWarning> warnings;
-    const auto materials = parseMtl(
-        "newmtl red paint\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 80\nmap_Kd -s 2 2 1 missing file.png\nmap_d leaf.png\nnewmtl "
-        "grey\nKd 0.5\n",
-        "/nowhere", warnings);
-    ASSERT_EQ(materials.size(), 2u);
-    EXPECT_EQ(materials[0].name, "red paint");
-    EXPECT_EQ(materials[0].color, (Color{1, 0, 0}));
-    EXPECT_EQ(materials[0].shininess, 80);
-    EXPECT_TRUE(materials[0].texture.empty());
-    EXPECT_EQ(materials[1].color, (Color{0.5f, 0.5f, 0.5f}));
-    EXPECT_EQ(materials[1].shininess, 0) << "no highlight without a specular colour";
-    ASSERT_EQ(warnings.size(), 2u);
-    EXPECT_NE(warnings[0].kind.find("missing file.png"), std::string::npos);
-    EXPECT_NE(warnings[1].kind.find("leaf.png"), std::string::npos);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Hbr made.
 
 #include "mesh/subdivide.h"
+#include "base/error.h"
 #include "formats/obj.h"
 #include "mesh/topology.h"
 
