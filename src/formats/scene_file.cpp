@@ -129,7 +129,7 @@ constexpr Field kMaterial[] = {
     field<&Material::textureRepeats>("texture_repeats", "false: beyond the images their borders go on."),
     field<&Material::textureFilter>("texture_filter",
         "Between texels: linear, nearest (texels are squares), or automatic: nearest where an image has at most 64 "
-        "texels a side."),
+        "texels a side and cuts no holes."),
     field<&Material::vertexColors>(
         "vertex_colors", "Multiply the mesh's vertex colours, where it has any, onto the colour."),
     field<&Material::shininess>(

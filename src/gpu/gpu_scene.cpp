@@ -116,7 +116,7 @@ std::vector<std::uint32_t> besideTriangles(const std::vector<std::uint32_t>& ind
 GpuMaterial packMaterial(const Material& m, const AtlasPlace& place) {
     const auto number = [](int value) { return static_cast<float>(value); };
     const int flags = (m.cutout.empty() ? 0 : kHasHoles) | (m.vertexColors ? kTakesVertexColors : 0)
-        | (isSharp(m.textureFilter, place.size) ? kIsSharp : 0) | (m.textureRepeats ? kRepeats : 0);
+        | (hasSharpTexels(m, place.size) ? kIsSharp : 0) | (m.textureRepeats ? kRepeats : 0);
     const glm::vec2 scale(m.textureScale), offset(m.textureOffset);
     GpuMaterial gpu{{m.color.r, m.color.g, m.color.b}, number(place.levels), m.shininess, m.specular,
         number(place.corner.z), number(flags),

@@ -130,7 +130,7 @@ struct RayScene::Trees {
             if (isNew) image->second = readTexture("", material.cutout);
             const glm::ivec2 size(image->second.width, image->second.height);
             const Mask mask{&image->second, material.textureScale, material.textureOffset, material.textureRepeats,
-                isSharp(material.textureFilter, size)};
+                hasSharpTexels(material, size)};
             list.push_back(&masks.try_emplace(number, mask).first->second);
         }
         if (std::all_of(list.begin(), list.end(), [](const Mask* mask) { return !mask; })) list.clear();

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,15 +18,10 @@ template <>
 inline constexpr std::array<std::string_view, 2> enumNames<Axis> = {"y", "z"};
 
 /// How a texture is read between its texels. Automatic: as nearest where it has at most 64 texels a side, for it was
-/// drawn texel by texel; else as linear.
+/// drawn texel by texel, and cuts no holes, whose outlines would become stairs; else as linear.
 enum class TextureFilter { automatic, linear, nearest };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<TextureFilter> = {"automatic", "linear", "nearest"};
-/// Are the texels of an image of this size seen as squares?
-inline bool isSharp(TextureFilter filter, glm::ivec2 size) {
-    return filter == TextureFilter::nearest
-        || (filter == TextureFilter::automatic && std::max(size.x, size.y) <= 64 && std::max(size.x, size.y) > 1);
-}
 
 enum class LightKind { sun, point, spot };
 template <>
@@ -61,6 +57,13 @@ struct Material {
     bool isCut = false;      ///< the cut face of a section
     Hatch hatch;             ///< lines across it, on the cut faces of sections
 };
+
+/// Are the texels of a material's image seen as squares? `size`: in texels.
+inline bool hasSharpTexels(const Material& material, glm::ivec2 size) {
+    const int side = std::max(size.x, size.y);
+    return material.textureFilter == TextureFilter::nearest
+        || (material.textureFilter == TextureFilter::automatic && material.cutout.empty() && side > 1 && side <= 64);
+}
 
 /// A plane that cuts the scene open: what lies on its normal's side is taken away.
 struct Section {

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Small inputs after public reports, drawn and looked at: python3 tests/reports/run.py LIMN [NUMBER...]
+
+Each stands for a kind of file that people bring. Needs the folder "reports" of LIMN_TEST_DATA; 77 without it.
+"""
+
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "files"))
+from read_back import png  # noqa: E402
+
+REPORTS = os.path.join(os.environ.get("LIMN_TEST_DATA", ""), "reports")
+LIMN = os.path.abspath(sys.argv[1])
+TESTS = {}
+
+
+def report(function):
+    """Registers a test by its number: the digits that its name ends with."""
+    TESTS[function.__name__[-2:]] = function
+    return function
+
+
+class Picture:
+    def __init__(self, path):
+        self.width, self.height, self.channels, _, self.samples = png(path)
+
+    def at(self, x, y):
+        """Red, green, blue."""
+        first = (int(y) * self.width + int(x)) * self.channels
+        return tuple(self.samples[first : first + 3])
+
+    def place(self, x, y, height=1.4, centre=(3.5, 0.5)):
+        """The colour at a place in the plane that an orthographic camera looks at, in scene units."""
+        scale = self.height / height
+        return self.at(self.width / 2 + (x - centre[0]) * scale, self.height / 2 - (y - centre[1]) * scale)
+
+
+def folder(number):
+    (found,) = glob.glob(os.path.join(REPORTS, number + "-*"))
+    return found
+
+
+def run(*arguments, expect=0):
+    """What limn says on standard error, and its standard output."""
+    done = subprocess.run([LIMN, *arguments], capture_output=True, text=True, timeout=300)
+    assert done.returncode == expect, "%s ends with %d: %s" % (arguments, done.returncode, done.stderr)
+    return done.stderr, done.stdout
+
+
+def draw(path, *arguments):
+    output = os.path.join(os.getcwd(), "out.png")
+    said, _ = run("render", path, "--output", output, *arguments)
+    return Picture(output), said
+
+
+def close(a, b, slack=3):
+    return all(abs(x - y) <= slack for x, y in zip(a, b))
+
+
+def same(found, wanted, what, slack=3):
+    assert close(found, wanted, slack), "%s: %s instead of %s" % (what, found, wanted)
+
+
+RED, GREEN, BLUE, YELLOW = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0)
+
+
+@report
+def map_options_01():
+    picture, said = draw(folder("01") + "/draw.toml")
+    # The image: red and green above, blue and yellow below. Panes are 1.2 apart.
+    for pane, u, v, colour in [
+        (0, 0.25, 0.75, RED),
+        (0, 0.75, 0.25, YELLOW),
+        (1, 1 / 12, 11 / 12, RED),  # -s 3 3 1
+        (1, 3 / 12, 11 / 12, GREEN),
+        (1, 5 / 12, 7 / 12, RED),
+        (1, 11 / 12, 1 / 12, YELLOW),
+        (2, 0.25, 0.75, GREEN),  # -o 0.5 0 0
+        (2, 0.75, 0.25, BLUE),
+        (3, 0.1, 0.9, RED),  # -clamp on -s 2 2 1: beyond the image its border goes on
+        (3, 0.8, 0.9, GREEN),
+        (3, 0.8, 0.1, YELLOW),
+        (4, 1 / 12, 11 / 12, RED),  # -s 3
+        (4, 11 / 12, 1 / 12, YELLOW),
+        (5, 0.2, 0.5, GREEN),  # -o 0.25 0.25 -s 2 1 1
+        (5, 0.45, 0.5, RED),
+        (5, 0.2, 0.9, YELLOW),
+    ]:
+        same(picture.place(1.2 * pane + u, v), colour, "pane %d at %g, %g" % (pane, u, v))
+    assert "option -mm of map_Kd; ignored" in said and "planks.mtl:23" in said, said
+
+
+@report
+def transparency_02():
+    picture, said = draw(folder("02") + "/draw.toml")
+    for name in ("glass_d", "glass_tr", "scan_tr1", "dn_halo"):
+        assert said.count("material '%s' is see-through" % name) == 1, said
+    assert "(d 0); not drawn" in said, said
+    pane, post = picture.place(0.5, 0.8), picture.place(1.1, 0.5)
+    for i in range(5):
+        same(picture.place(1.2 * i + 0.5, 0.8), pane, "pane %d" % i)
+    same(picture.place(6.5, 0.5), post, "what is behind the pane that is not there")
+    same(picture.place(6.5, 0.8), (255, 255, 255), "nothing where d is 0")
+
+
+@report
+def leaves_03():
+    picture, said = draw(folder("03") + "/draw.toml")
+    for leaf in range(7):
+        x = 77 + 154.3 * leaf
+        same(picture.at(x, 90), (71, 151, 50), "the middle of leaf %d" % leaf, 12)
+        same(picture.at(x - 48, 60), (255, 255, 255), "beside leaf %d" % leaf)
+    assert "map_Tr" in said, said
+
+
+@report
+def keywords_05():
+    picture, said = draw(folder("05") + "/draw.toml")
+    same(picture.at(668, 80), RED, "kd")
+    same(picture.at(814, 80), BLUE, "KD under NEWMTL")
+    for x in (40, 186, 478):
+        assert picture.at(x, 40) != picture.at(x + 30, 40) != (255, 255, 255), "map_kd, map_KD, tabs"
+    assert "map_Ka" in said, said
+
+
+@report
+def unknown_material_07():
+    _, said = draw(folder("07") + "/draw.toml")
+    assert "material 'm1' is in no library" in said and "the_object_name" in said, said
+
+
+@report
+def damaged_images_21():
+    picture, said = draw(folder("21") + "/good.toml")
+    assert said.count("warning") == 0, said
+    assert picture.at(80, 60) != (255, 255, 255)
+    said, _ = run("check", folder("21") + "/bad.toml", expect=65)
+    for name in ("not_an_image.png", "empty.png", "cut.jpg"):
+        assert said.count("/%s: the image cannot be read" % name) == 1, said
+
+
+@report
+def paths_23():
+    (config,) = glob.glob(folder("23") + "/*/Bild*.toml")
+    _, said = draw(config)
+    assert said.count("warning") == 2, said
+    assert "Materialien.mtl:9: texture 'textures/brick.jpg' is found as 'Textures/Brick.JPG'" in said, said
+    assert "Materialien.mtl:12: texture 'C:\\Users\\someone\\Desktop\\Haus\\木材.png' is found as '木材.png'" in said, said
+
+
+@report
+def no_tint_32():
+    picture, _ = draw(folder("32") + "/draw.toml")
+    for left in (15, 163):
+        same(picture.at(left + 15, 40), (250, 240, 220), "a light square")
+        same(picture.at(left + 46, 40), (220, 60, 40), "a dark square")
+
+
+@report
+def long_image_35():
+    _, said = draw(folder("35") + "/t16000x64.obj")
+    assert "drawn with 8000×32" in said, said
+    assert "larger than" not in said, said
+
+
+def main():
+    if not os.path.isdir(REPORTS):
+        print("LIMN_TEST_DATA names no folder with reports")
+        return 77
+    wanted = sys.argv[2:] or sorted(TESTS)
+    failed = []
+    with tempfile.TemporaryDirectory() as place:
+        os.chdir(place)
+        for number in wanted:
+            try:
+                TESTS[number]()
+            except (AssertionError, subprocess.TimeoutExpired) as problem:
+                failed.append(number)
+                print("%s: %s" % (number, problem))
+    print("%d of %d reports hold" % (len(wanted) - len(failed), len(wanted)))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
