@@ -1,11 +1,11 @@
-// Depth as a light sees it. `drawing` = 8 · light + face.
+// Depth as a light sees it. `rasterView` = 8 · light + face.
 #include "scene/scene.glsl"
 #include "scene/lights.glsl"
 
 layout(location = 0) in vec3 meshPoint;
 layout(location = 1) in uint instance;
 
-uniform int drawing;
+uniform int rasterView;
 
 #ifdef CUTOUTS
 out vec3 viewPoint;
@@ -14,7 +14,7 @@ flat out uint instanceNumber;
 
 void main() {
     vec3 point = viewFromMesh(instance, meshPoint);
-    gl_Position = lights[drawing / 8].shadowFromView[drawing % 8] * vec4(point, 1.0);
+    gl_Position = lights[rasterView / 8].shadowFromView[rasterView % 8] * vec4(point, 1.0);
 #ifdef CUTOUTS
     viewPoint = point;
     instanceNumber = instance;

@@ -781,7 +781,7 @@ class Exporter:
             self.left_out.add("pixels that are not square", "%g:%g" % (render.pixel_aspect_x, render.pixel_aspect_y))
         width, height = self.picture_size()
         lines = [
-            "# Renders %s. Start from here: every section may be changed or left out."
+            "# Renders %s. Start from here: every table may be changed or left out."
             % (quoted(camera) if camera else "the scene"),
             "version = 1",
             "",

@@ -76,7 +76,7 @@ shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
 /// A commented config beside it.
 std::string configText(const std::string& config, const std::string& name) {
     return fmt::format(
-        R"(# A picture: how to draw the scene. A section that is not there is an effect that costs nothing.
+        R"(# A picture: how to draw the scene. A table that is not there is an effect that costs nothing.
 version = 1
 # See what will run with:  limn plan {0}
 scene = "scene.toml"

@@ -133,9 +133,9 @@ ExitCode run(const std::string& name, const std::string& format) {
 
 std::string parameterReference() {
     std::string out = "# Parameter reference\n\nMade from the program's own tables.\n\n## Render config\n\n";
-    for (const auto& section : configSections())
-        out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name),
-                   section.doc, markdownTable(rows(section.schema, nullptr)))
+    for (const auto& table : configTables())
+        out += fmt::format("### {}{}\n\n{}", table.name.empty() ? "" : fmt::format("`{}`: ", table.name), table.doc,
+                   markdownTable(rows(table.schema, nullptr)))
             + "\n";
     out += "## Techniques\n\n";
     for (const auto& slot : allSlots()) {
@@ -145,9 +145,9 @@ std::string parameterReference() {
             if (technique->slot == slot.name) out += markdownOf(*technique);
     }
     out += "## Scene file\n\n";
-    for (const auto& section : sceneSections())
-        out += fmt::format("### {}{}\n\n{}", section.name.empty() ? "" : fmt::format("`{}`: ", section.name),
-                   section.doc, markdownTable(rows(section.schema, nullptr)))
+    for (const auto& table : sceneTables())
+        out += fmt::format("### {}{}\n\n{}", table.name.empty() ? "" : fmt::format("`{}`: ", table.name), table.doc,
+                   markdownTable(rows(table.schema, nullptr)))
             + "\n";
     out += "## Images (AOVs)\n\n| name | format | meaning |\n|---|---|---|\n";
     for (const Aov* aov : allAovs())

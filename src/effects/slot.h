@@ -22,7 +22,7 @@ struct Slot {
     };
 
     std::string_view name;      ///< of src/effects/<name>/
-    std::string_view key;       ///< where a config chooses: "ao"; "ao.filter" stands within the section of slot "ao"
+    std::string_view key;       ///< where a config chooses: "ao"; "ao.filter" stands within the table of slot "ao"
     std::string_view fallback;  ///< the technique where a config chooses none; empty: then there is none
     Fill fill = Fill::one;
     std::vector<const Aov*> promises;    ///< what a technique of the slot publishes, unless it draws nothing
@@ -32,7 +32,7 @@ struct Slot {
 
     /// As messages call it: "[ao]", "filter of [ao]", "[[edges]]".
     std::string label() const;
-    /// The slot in whose section it stands; empty where it has its own.
+    /// The slot in whose table it stands; empty where it has its own.
     std::string_view parent() const;
     /// The last part of its key.
     std::string_view ownKey() const;

@@ -127,7 +127,7 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.needs = SceneData::positions | SceneData::lights;
     cutHoles(pass);
     if (scene_.cutouts && isUnified()) pass.defines.emplace_back("UNIFIED", "");
-    for (const auto& map : layout.maps) pass.drawings.push_back({map.viewport, map.number});
+    for (const auto& map : layout.maps) pass.rasterViews.push_back({map.viewport, map.number});
     pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
     pass.note = fmt::format("{} map{}", layout.maps.size(), layout.maps.size() == 1 ? "" : "s");
     graph_.passes.push_back(std::move(pass));
@@ -158,8 +158,8 @@ void applySettings(TechniqueChoice& choice, std::string_view settings) {
 
 namespace {
 
-/// `mode` and `preset` of a section: settings that belong together, under what the section says itself.
-void readPresets(const Node& section, std::string_view what, TechniqueChoice& choice, ErrorCollector& errors) {
+/// `mode` and `preset` of a table: settings that belong together, under what the table says itself.
+void readPresets(const Node& table, std::string_view what, TechniqueChoice& choice, ErrorCollector& errors) {
     const Technique& technique = *choice.technique;
     const auto apply = [&](const Node& node, std::string_view wanted) {
         std::vector<std::string> names;
@@ -171,7 +171,7 @@ void readPresets(const Node& section, std::string_view what, TechniqueChoice& ch
             fmt::format("{} technique '{}' has no preset '{}'", technique.slot, technique.name, wanted),
             names.empty() ? "it has none" : nameRemedy(wanted, names)});
     };
-    if (const Node* mode = section.find("mode")) {
+    if (const Node* mode = table.find("mode")) {
         const std::string* text = mode->text();
         if (!text || (*text != "default" && *text != "paper"))
             errors.add(
@@ -179,7 +179,7 @@ void readPresets(const Node& section, std::string_view what, TechniqueChoice& ch
         else if (*text == "paper")
             apply(*mode, "paper");
     }
-    if (const Node* preset = section.find("preset")) {
+    if (const Node* preset = table.find("preset")) {
         if (preset->text())
             apply(*preset, *preset->text());
         else
@@ -189,22 +189,22 @@ void readPresets(const Node& section, std::string_view what, TechniqueChoice& ch
 
 }  // namespace
 
-TechniqueChoice readChoice(const Node& section, const Slot& slot, std::string_view what, ErrorCollector& errors,
+TechniqueChoice readChoice(const Node& table, const Slot& slot, std::string_view what, ErrorCollector& errors,
     std::span<const std::string_view> alsoKnown) {
     TechniqueChoice choice;
-    if (!section.isTable() && !section.text()) {
+    if (!table.isTable() && !table.text()) {
         errors.add(
-            {ExitCode::usage, section.where, fmt::format("{} must be a table, not {}", what, section.kindName()), ""});
+            {ExitCode::usage, table.where, fmt::format("{} must be a table, not {}", what, table.kindName()), ""});
         return choice;
     }
     // A technique without settings may be given by its name alone.
-    const Node* named = section.text() ? &section : section.find("technique");
+    const Node* named = table.text() ? &table : table.find("technique");
     const std::string name = named && named->text() ? *named->text() : "";
     choice.technique = findTechnique(slot.name, name);
     if (!choice.technique) {
         const auto names = namesIn(slot.name);
         if (!named)
-            errors.add({ExitCode::usage, section.where, fmt::format("{} has no 'technique'", what),
+            errors.add({ExitCode::usage, table.where, fmt::format("{} has no 'technique'", what),
                 "it can be " + joinOr(names)});
         else
             errors.add({ExitCode::usage, named->where, fmt::format("there is no {} technique '{}'", slot.name, name),
@@ -212,12 +212,12 @@ TechniqueChoice readChoice(const Node& section, const Slot& slot, std::string_vi
         return choice;
     }
     choice.params = choice.technique->makeParams();
-    if (section.text()) return choice;
-    readPresets(section, what, choice, errors);
+    if (table.text()) return choice;
+    readPresets(table, what, choice, errors);
     std::vector<std::string_view> known{"technique", "mode", "preset"};
     known.insert(known.end(), alsoKnown.begin(), alsoKnown.end());
-    readFields(section, choice.technique->schema, choice.params.get(), &choice.tracks,
-        fmt::format("{} ({})", what, name), errors, known);
+    readFields(table, choice.technique->schema, choice.params.get(), &choice.tracks, fmt::format("{} ({})", what, name),
+        errors, known);
     return choice;
 }
 

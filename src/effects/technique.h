@@ -164,9 +164,9 @@ struct TechniqueChoice {
 
 /// A technique as it is when nothing is said but its name. Throws Error (internal) if there is none.
 TechniqueChoice defaultChoice(std::string_view slot, std::string_view name);
-/// Reads a slot's section: `technique`, `mode`, `preset` and the parameters, or the technique's name alone. Problems go
+/// Reads a slot's table: `technique`, `mode`, `preset` and the parameters, or the technique's name alone. Problems go
 /// to `errors`; `alsoKnown` are keys that somebody else reads.
-TechniqueChoice readChoice(const Node& section, const Slot& slot, std::string_view what, ErrorCollector& errors,
+TechniqueChoice readChoice(const Node& table, const Slot& slot, std::string_view what, ErrorCollector& errors,
     std::span<const std::string_view> alsoKnown = {});
 
 /// A setting of a choice changed from TOML text, as tests and studies do. Throws Errors.

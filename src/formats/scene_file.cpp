@@ -369,7 +369,7 @@ private:
 
 }  // namespace
 
-std::vector<SceneSection> sceneSections() {
+std::vector<SceneTable> sceneTables() {
     return {{"", "top of the file", kHeader}, {"[units]", "what the numbers mean", kUnits},
         {"[[mesh]]", "a mesh file", kMesh},
         {"[[mesh]] subdivision", "draws the subdivision surface of the mesh; without it, its polygons as they are",

@@ -6,12 +6,12 @@
 
 namespace limn {
 
-/// Tables of the scene file's sections, for the parameter reference.
-struct SceneSection {
+/// A table of scene files, for the parameter reference.
+struct SceneTable {
     std::string_view name, doc;
     Schema schema;
 };
-std::vector<SceneSection> sceneSections();
+std::vector<SceneTable> sceneTables();
 
 /// Reads and checks a scene file; every problem at once (Errors). Files it names are not opened, but must exist. What
 /// was read, includes among it, is added to `files`.

@@ -85,7 +85,7 @@ void Buffer::copyFrom(const Buffer& other, std::size_t bytes) {
     if (bytes > 0) glCopyNamedBufferSubData(other.id(), id(), 0, 0, static_cast<GLsizeiptr>(bytes));
 }
 
-void Buffer::bindUniform(int slot) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(slot), id()); }
+void Buffer::bindUniform(int binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id()); }
 
 BufferView::BufferView(const Buffer& buffer, Element element, const std::string& name) {
     constexpr GLenum formats[] = {GL_R32UI, GL_RGB32UI, GL_RGBA32UI, GL_RG32F, GL_RGB32F, GL_RGBA32F};

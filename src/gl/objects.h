@@ -58,7 +58,7 @@ public:
     void write(std::span<const std::byte> data, std::size_t offset = 0);
     /// The first bytes of another buffer, moved without leaving the device.
     void copyFrom(const Buffer& other, std::size_t bytes);
-    void bindUniform(int slot) const;
+    void bindUniform(int binding) const;
     std::size_t size() const { return size_; }
     Id id() const { return handle_.get(); }
     explicit operator bool() const { return static_cast<bool>(handle_); }

@@ -14,7 +14,7 @@ namespace limn {
 const gl::Program& Executor::program(
     const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block) {
     const auto stages =
-        shadersOf(graph, planned, view, block, drawsScreen() ? ComputeAs::drawings : ComputeAs::shaders, shaders_);
+        shadersOf(graph, planned, view, block, drawsScreen() ? ComputeAs::fragments : ComputeAs::workGroups, shaders_);
     std::string key;
     for (const auto& stage : stages) key += stage.source;
     auto it = programs_.find(key);
@@ -125,12 +125,12 @@ static PixelRect neededPart(const PlannedPass& planned, const View& view, glm::i
 void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     glm::ivec2 size(0);
-    int slot = 0;
+    int unit = 0;
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         if (!planned.writes[w]) continue;
         const auto& image = texture(plan, pass.writes[w].resource);
         if (pass.mask >= 0) image.clear();
-        image.bindImage(slot++, pass.writes[w].sums ? gl::Access::readWrite : gl::Access::write);
+        image.bindImage(unit++, pass.writes[w].sums ? gl::Access::readWrite : gl::Access::write);
         size = glm::max(size, image.size());
     }
     gl::dispatch(size, kWorkGroup);
@@ -291,15 +291,15 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     }
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
-    if (pass.drawings.empty()) {
+    if (pass.rasterViews.empty()) {
         // The fine raster, or the picture's own.
         const gl::Texture* any = colours.empty() ? depth : colours.front();
         assert(any);
         drawSeen(view, scene, any->size().x / view.canvas.size.x, framebuffer, linked, depth);
     }
-    for (const auto& drawing : pass.drawings) {
-        gl::setViewport({drawing.viewport.x, drawing.viewport.y}, {drawing.viewport.z, drawing.viewport.w});
-        linked.setInt("drawing", drawing.number);
+    for (const auto& part : pass.rasterViews) {
+        gl::setViewport({part.viewport.x, part.viewport.y}, {part.viewport.z, part.viewport.w});
+        linked.setInt("rasterView", part.number);
         scene.draw();
     }
     gl::barrier();

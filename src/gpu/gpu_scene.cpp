@@ -151,7 +151,7 @@ void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     if (isReady_ && needs == needs_ && recordWords <= records_.count) return;
     needs_ = needs;
     const auto most = static_cast<std::uint64_t>(limits_.maxBufferTexels);
-    slots_.clear();
+    residents_.clear();
     shown_.clear();
     positions_ = Arena("vertices", sizeof(glm::vec3), most, isSoftware_);
     triangles_ = Arena("triangles", 3 * sizeof(std::uint32_t), most, isSoftware_);
@@ -167,56 +167,56 @@ void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     if (has(needs, SceneData::positions)) words_.put(bytesOf(std::vector<std::uint32_t>(recordWords)));
 }
 
-std::uint32_t GpuScene::putWords(Slot& slot, const std::vector<std::uint32_t>& values) {
+std::uint32_t GpuScene::putWords(Resident& resident, const std::vector<std::uint32_t>& values) {
     if (values.empty()) return kNoWords;
-    slot.words.push_back(words_.put(bytesOf(values)));
-    return slot.words.back().first;
+    resident.words.push_back(words_.put(bytesOf(values)));
+    return resident.words.back().first;
 }
 
 void GpuScene::putMesh(const ContentKey& key, const TriMesh& mesh) {
-    Slot& slot = slots_[key];
-    slot.positions = positions_.put(bytesOf(mesh.positions));
-    slot.triangles = triangles_.put(bytesOf(mesh.indices));
-    if (has(needs_, SceneData::normals)) slot.normals = normals_.put(bytesOf(mesh.normals));
-    if (has(needs_, SceneData::uvs)) slot.uvs = uvs_.put(bytesOf(mesh.uvs));
+    Resident& resident = residents_[key];
+    resident.positions = positions_.put(bytesOf(mesh.positions));
+    resident.triangles = triangles_.put(bytesOf(mesh.indices));
+    if (has(needs_, SceneData::normals)) resident.normals = normals_.put(bytesOf(mesh.normals));
+    if (has(needs_, SceneData::uvs)) resident.uvs = uvs_.put(bytesOf(mesh.uvs));
     // These two lie beside the triangles: shaders find them by the same number.
     const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
     if (hasOwnIndices && has(needs_, SceneData::normals))
-        slot.triangleNormals = triangleNormals_.put(bytesOf(besideTriangles(mesh.normalIndices, mesh)));
+        resident.triangleNormals = triangleNormals_.put(bytesOf(besideTriangles(mesh.normalIndices, mesh)));
     if (hasOwnIndices && has(needs_, SceneData::uvs))
-        slot.triangleUvs = triangleUvs_.put(bytesOf(besideTriangles(mesh.uvIndices, mesh)));
-    assert(slot.triangleNormals.count == 0 || slot.triangleNormals.first == slot.triangles.first);
-    assert(slot.triangleUvs.count == 0 || slot.triangleUvs.first == slot.triangles.first);
-    slot.place = {slot.positions.first, slot.normals.first, slot.uvs.first, slot.triangles.first,
+        resident.triangleUvs = triangleUvs_.put(bytesOf(besideTriangles(mesh.uvIndices, mesh)));
+    assert(resident.triangleNormals.count == 0 || resident.triangleNormals.first == resident.triangles.first);
+    assert(resident.triangleUvs.count == 0 || resident.triangleUvs.first == resident.triangles.first);
+    resident.place = {resident.positions.first, resident.normals.first, resident.uvs.first, resident.triangles.first,
         static_cast<std::uint32_t>(mesh.triangleCount()), kNoWords, kNoWords, kNoWords, mesh.pivot};
-    if (has(needs_, SceneData::materials)) slot.place.materialWords = putWords(slot, mesh.triangleMaterial);
-    slot.place.partWords = putWords(slot, mesh.trianglePart);
-    if (has(needs_, SceneData::colors)) slot.place.colorWords = putWords(slot, packColors(mesh));
+    if (has(needs_, SceneData::materials)) resident.place.materialWords = putWords(resident, mesh.triangleMaterial);
+    resident.place.partWords = putWords(resident, mesh.trianglePart);
+    if (has(needs_, SceneData::colors)) resident.place.colorWords = putWords(resident, packColors(mesh));
 }
 
-void GpuScene::dropMesh(const Slot& slot) {
-    positions_.drop(slot.positions);
-    triangles_.drop(slot.triangles);
-    normals_.drop(slot.normals);
-    uvs_.drop(slot.uvs);
-    triangleNormals_.drop(slot.triangleNormals);
-    triangleUvs_.drop(slot.triangleUvs);
-    for (const auto& piece : slot.words) words_.drop(piece);
+void GpuScene::dropMesh(const Resident& resident) {
+    positions_.drop(resident.positions);
+    triangles_.drop(resident.triangles);
+    normals_.drop(resident.normals);
+    uvs_.drop(resident.uvs);
+    triangleNormals_.drop(resident.triangleNormals);
+    triangleUvs_.drop(resident.triangleUvs);
+    for (const auto& piece : resident.words) words_.drop(piece);
 }
 
 void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made) {
     const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
-    for (auto slot = slots_.begin(); slot != slots_.end();)
-        if (wanted.contains(slot->first)) {
-            ++slot;
+    for (auto resident = residents_.begin(); resident != residents_.end();)
+        if (wanted.contains(resident->first)) {
+            ++resident;
         } else {
-            dropMesh(slot->second);
-            slot = slots_.erase(slot);
+            dropMesh(resident->second);
+            resident = residents_.erase(resident);
         }
     std::vector<std::pair<ContentKey, const TriMesh*>> missing;
     std::uint64_t vertices = 0, triangles = 0, normals = 0, uvs = 0;
     for (const auto& key : wanted) {
-        if (slots_.contains(key)) continue;
+        if (residents_.contains(key)) continue;
         const TriMesh& mesh = made.at(key);
         missing.emplace_back(key, &mesh);
         vertices += mesh.positions.size();
@@ -224,7 +224,7 @@ void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<Cont
         normals += mesh.normals.size();
         uvs += mesh.uvs.size();
     }
-    if (slots_.empty()) {  // the first time, exactly as much as is needed
+    if (residents_.empty()) {  // the first time, exactly as much as is needed
         const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
         positions_.reserve(vertices);
         triangles_.reserve(triangles);
@@ -235,16 +235,16 @@ void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<Cont
     }
     for (const auto& [key, mesh] : missing) putMesh(key, *mesh);
     shown_.clear();
-    for (const auto& key : meshOf) shown_.push_back(&slots_.at(key));
+    for (const auto& key : meshOf) shown_.push_back(&residents_.at(key));
 
     std::size_t drawn = 0;
-    for (const Slot* slot : shown_) drawn += slot->place.triangleCount;
+    for (const Resident* resident : shown_) drawn += resident->place.triangleCount;
     isCullable_ = isSoftware_ && drawn >= kManyTriangles;
     if (!isCullable_) return;
-    for (const auto& [key, mesh] : missing) slots_.at(key).clusters = makeClusters(*mesh);
+    for (const auto& [key, mesh] : missing) residents_.at(key).clusters = makeClusters(*mesh);
     // A scene that has become large by what was added: what was there before is drawn whole until it changes.
-    for (const Slot* slot : shown_)
-        isCullable_ = isCullable_ && (!slot->clusters.empty() || slot->place.triangleCount == 0);
+    for (const Resident* resident : shown_)
+        isCullable_ = isCullable_ && (!resident->clusters.empty() || resident->place.triangleCount == 0);
 }
 
 void GpuScene::putTables(const SceneAt& scene) {
@@ -276,8 +276,8 @@ void GpuScene::putTables(const SceneAt& scene) {
 void GpuScene::putCommands() {
     std::vector<gl::DrawCommand> commands;
     std::vector<std::uint32_t> numbers;
-    for (const Slot* slot : shown_) {
-        const MeshPlace& place = slot->place;
+    for (const Resident* resident : shown_) {
+        const MeshPlace& place = resident->place;
         const auto number = static_cast<std::uint32_t>(numbers.size());
         commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3,
             static_cast<std::int32_t>(place.firstVertex), number});

@@ -24,7 +24,7 @@ public:
     /// Declares what will be read of the scenes to come, and how many line records they have. A change drops everything
     /// that is held.
     void require(SceneData needs, std::size_t lineRecords);
-    bool holds(const ContentKey& mesh) const { return slots_.contains(mesh); }
+    bool holds(const ContentKey& mesh) const { return residents_.contains(mesh); }
 
     /// Brings what differs from the last scene. `meshOf`: the key of each instance's mesh; those that are not held must
     /// be in `made`, which may be released afterwards. Reads the textures' files when the plan needs them. Throws Error
@@ -49,16 +49,16 @@ private:
             colorWords;
         glm::dvec3 pivot;
     };
-    struct Slot {
+    struct Resident {
         MeshPlace place;
         ArenaPiece positions, triangles, normals, triangleNormals, uvs, triangleUvs;
         std::vector<ArenaPiece> words;
         std::vector<Cluster> clusters;
     };
 
-    std::uint32_t putWords(Slot& slot, const std::vector<std::uint32_t>& values);
+    std::uint32_t putWords(Resident& resident, const std::vector<std::uint32_t>& values);
     void putMesh(const ContentKey& key, const TriMesh& mesh);
-    void dropMesh(const Slot& slot);
+    void dropMesh(const Resident& resident);
     void putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
     /// What objects and materials say of their lines, and which materials each instance shows.
     void putTables(const SceneAt& scene);
@@ -73,8 +73,8 @@ private:
     bool isSoftware_, isCullable_ = false;
     bool isReady_ = false;  ///< the last update went through: what is held is whole
     SceneData needs_ = SceneData::none;
-    std::map<ContentKey, Slot> slots_;
-    std::vector<const Slot*> shown_;  ///< of each instance
+    std::map<ContentKey, Resident> residents_;
+    std::vector<const Resident*> shown_;  ///< of each instance
     Arena positions_, triangles_, normals_, triangleNormals_, uvs_, triangleUvs_, words_;
     ArenaPiece records_, tables_;                ///< of words_: line records at its begin, material tables
     std::vector<std::uint32_t> tableWords_;      ///< what stands in both

@@ -55,7 +55,7 @@ std::string outputs(const Graph& graph, const PlannedPass& planned, const Pass& 
                                integers[] = {"", "uint", "uvec2", "uvec3", "uvec4"};
     constexpr std::string_view swizzles[] = {"", "x", "xy", "xyz", "xyzw"};
     std::string text;
-    int slot = 0;
+    int number = 0;
     for (std::size_t w = 0; w < pass.writes.size(); ++w) {
         const Write& write = pass.writes[w];
         const FormatInfo format = formatOf(graph, write.resource);
@@ -63,17 +63,17 @@ std::string outputs(const Graph& graph, const PlannedPass& planned, const Pass& 
         const auto channels = static_cast<std::size_t>(format.channels);
         const auto& types = format.glslPrefix == "u" ? integers : floats;
         if (pass.kind == Pass::Kind::raster) {
-            text += fmt::format("layout(location = {}) out {} {};\n", slot++, types[channels], write.name);
-        } else if (computeAs == ComputeAs::drawings) {  // sums are made by blending
+            text += fmt::format("layout(location = {}) out {} {};\n", number++, types[channels], write.name);
+        } else if (computeAs == ComputeAs::fragments) {  // sums are made by blending
             text +=
                 fmt::format("layout(location = {0}) out {1} out_{2};\nvoid write_{2}({3} v) {{ out_{2} = v.{4}; }}\n",
-                    slot++, types[channels], write.name, types[4], swizzles[channels]);
+                    number++, types[channels], write.name, types[4], swizzles[channels]);
         } else {
             const std::string place = "ivec2(gl_GlobalInvocationID.xy)";
             const std::string value = write.sums
                 ? fmt::format("v + (view.sampleNumber > 0 ? imageLoad({}, {}) : vec4(0))", write.name, place)
                 : "v";
-            text += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", slot++, format.glslImage,
+            text += fmt::format("layout(binding = {}, {}) uniform {} {}image2D {};\n", number++, format.glslImage,
                 write.sums ? "" : "writeonly", format.glslPrefix, write.name);
             text += fmt::format(
                 "void write_{0}({1} v) {{ imageStore({0}, {2}, {3}); }}\n", write.name, types[4], place, value);
@@ -98,7 +98,7 @@ HandedOn handAllOn(const Pass& pass, const UniformBlock& view, std::string_view 
     HandedOn all = handOn(view, source);
     const HandedOn params = handOn(pass.params, source);
     std::string calls = "handOn_view();";
-    if (all.slots + params.slots <= kMostInputs) {
+    if (all.vectors + params.vectors <= kMostInputs) {
         all.vertex += params.vertex;
         all.fragment += params.fragment;
         calls += fmt::format(" handOn_{}();", pass.params.name);
@@ -118,7 +118,7 @@ HandedOn handAllOn(const Pass& pass, const UniformBlock& view, std::string_view 
 std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& planned, const View& view,
     const UniformBlock& viewConstants, ComputeAs computeAs, const ShaderLibrary& library) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-    const bool isRaster = pass.kind == Pass::Kind::raster, isDrawn = !isRaster && computeAs == ComputeAs::drawings,
+    const bool isRaster = pass.kind == Pass::Kind::raster, isDrawn = !isRaster && computeAs == ComputeAs::fragments,
                hasMask = pass.mask >= 0;
     const std::string begin = head(pass, view), blocks = viewConstants.glsl() + pass.params.glsl(),
                       names = namesOfOutputs(planned, pass);

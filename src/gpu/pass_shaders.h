@@ -14,9 +14,9 @@ namespace limn {
 /// Invocations of a work group of compute passes, each way. Long rows: neighbours in a row are neighbours in memory.
 inline constexpr glm::ivec2 kWorkGroup(32, 8);
 
-/// Whether compute passes are drawn as one large triangle, or as squares where they have a mask, as is best on software
-/// renderers.
-enum class ComputeAs { shaders, drawings };
+/// Compute passes run in work groups, or, quicker on software renderers, as fragments: of one large triangle, or of
+/// squares where they have a mask.
+enum class ComputeAs { workGroups, fragments };
 
 /// `viewConstants`: the block `view`, see viewBlock(). Shaders of equal text do the same.
 std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& planned, const View& view,

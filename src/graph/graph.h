@@ -69,10 +69,10 @@ struct Write {
     bool sums = false;                  ///< compute passes: the image is the sum of what all samples of a frame write
 };
 
-/// One drawing of the scene into a part of a raster pass's images.
-struct Drawing {
+/// Where in a raster pass's images the scene is drawn, and which of several times this is.
+struct RasterView {
     glm::ivec4 viewport{0};  ///< origin and size
-    int number = 0;          ///< what the shader's uniform `drawing` says
+    int number = 0;          ///< the shader's uniform `rasterView`
 };
 
 /// What host passes see of the scene. The graph hands it on without knowing it: rays/ray_scene.h is one.
@@ -117,7 +117,7 @@ struct Pass {
     UniformBlock params;
     SceneData needs = SceneData::none;
     std::function<void(HostWork&)> work;  ///< host passes
-    std::vector<Drawing> drawings;        ///< raster passes; empty: the scene once, as the picture's camera sees it
+    std::vector<RasterView> rasterViews;  ///< raster passes; empty: the scene once, as the picture's camera sees it
     /// Compute passes may be run only where a mask says: index into reads of an R8 image, one texel per kMaskTile ×
     /// kMaskTile pixels. Where it is 0 the pass's images are 0. -1: everywhere.
     int mask = -1;

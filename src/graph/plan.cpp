@@ -157,20 +157,20 @@ private:
                 const std::size_t r = index(pass.writes[w].resource);
                 const Resource& resource = graph_.resources[r];
                 const bool persistent = resource.persistent || mustLast[r];
-                std::size_t slot = 0;
-                for (; slot < plan_.textures.size(); ++slot) {
-                    const auto& texture = plan_.textures[slot];
+                std::size_t place = 0;
+                for (; place < plan_.textures.size(); ++place) {
+                    const auto& texture = plan_.textures[place];
                     if (!persistent && !texture.persistent && texture.format == resource.format
-                        && texture.size == resource.size && busyUntil[slot] < static_cast<int>(i))
+                        && texture.size == resource.size && busyUntil[place] < static_cast<int>(i))
                         break;
                 }
-                if (slot == plan_.textures.size()) {
+                if (place == plan_.textures.size()) {
                     plan_.textures.push_back({resource.format, resource.size, persistent, {}});
                     busyUntil.push_back(0);
                 }
-                plan_.textures[slot].resources.push_back(static_cast<int>(r));
-                plan_.textureOf[r] = static_cast<int>(slot);
-                busyUntil[slot] = persistent ? kForever : lastUse[r];
+                plan_.textures[place].resources.push_back(static_cast<int>(r));
+                plan_.textureOf[r] = static_cast<int>(place);
+                busyUntil[place] = persistent ? kForever : lastUse[r];
             }
         }
     }

@@ -276,10 +276,10 @@ private:
 
     static std::string makerRemedy(const Aov& aov) {
         const Slot& slot = *makers(aov).front();
-        const std::string section =
+        const std::string table =
             slot.fill == Slot::Fill::layers ? fmt::format("[[{}]]", slot.key) : fmt::format("[{}]", slot.key);
-        if (aov.onlyBy.empty()) return fmt::format("add a section {}", section);
-        return fmt::format("add a section {} with technique = \"{}\"", section, aov.onlyBy);
+        if (aov.onlyBy.empty()) return fmt::format("add a table {}", table);
+        return fmt::format("add a table {} with technique = \"{}\"", table, aov.onlyBy);
     }
 
     Node document_;
@@ -290,7 +290,7 @@ private:
 
 }  // namespace
 
-std::vector<ConfigSection> configSections() {
+std::vector<ConfigTable> configTables() {
     return {{"", "top of the file", kHeader},
         {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")",
             kImage},
@@ -325,8 +325,8 @@ color = "#2a2320"
 Choices readChoices(const Node& document, ErrorCollector& errors) {
     Choices choices;
     for (const auto& slot : allSlots()) {
-        const Node* section = slot.parent().empty() ? &document : document.find(slot.parent());
-        if (const Node* node = section ? section->find(slot.ownKey()) : nullptr)
+        const Node* table = slot.parent().empty() ? &document : document.find(slot.parent());
+        if (const Node* node = table ? table->find(slot.ownKey()) : nullptr)
             choices[std::string(slot.name)] = readSlot(slot, *node, errors);
         else if (!slot.fallback.empty())
             choices[std::string(slot.name)] = {defaultChoice(slot.name, slot.fallback)};

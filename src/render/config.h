@@ -51,12 +51,12 @@ struct RenderConfig {
     const std::vector<TechniqueChoice>& in(std::string_view slot) const;
 };
 
-struct ConfigSection {
+struct ConfigTable {
     std::string_view name, doc;
     Schema schema;
 };
-/// Sections that are no technique, for the parameter reference.
-std::vector<ConfigSection> configSections();
+/// Those that choose no technique, for the parameter reference.
+std::vector<ConfigTable> configTables();
 
 /// What the command line adds to a config.
 struct ConfigOverrides {

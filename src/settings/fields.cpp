@@ -524,15 +524,15 @@ std::string typeText(const Field& field) {
 
 void applyTracks(void* object, std::span<const Track> tracks, double frame) {
     for (const auto& track : tracks) {
-        const auto after = std::upper_bound(
-            track.keys.begin(), track.keys.end(), frame, [](double f, const Key& key) { return f < key.frame; });
+        const auto after = std::upper_bound(track.keyframes.begin(), track.keyframes.end(), frame,
+            [](double f, const Keyframe& key) { return f < key.frame; });
         std::array<double, 4> value{};
-        if (after == track.keys.begin()) {
-            value = track.keys.front().value;
-        } else if (after == track.keys.end() || track.interpolation == Interpolation::constant) {
+        if (after == track.keyframes.begin()) {
+            value = track.keyframes.front().value;
+        } else if (after == track.keyframes.end() || track.interpolation == Interpolation::constant) {
             value = std::prev(after)->value;
         } else {
-            const Key& a = *std::prev(after);
+            const Keyframe& a = *std::prev(after);
             double t = (frame - a.frame) / (after->frame - a.frame);
             if (track.interpolation == Interpolation::smooth) t = t * t * (3 - 2 * t);
             for (std::size_t i = 0; i < 4; ++i) value[i] = a.value[i] + (after->value[i] - a.value[i]) * t;
@@ -571,17 +571,17 @@ void readTrack(const Node& node, const Field& field, void* object, std::vector<T
             return fail(pair, "has a key that is not [frame, value]", remedy);
         if (auto problem = field.type().read(field.member(object), pair.array()[1], field))
             return fail(pair, *problem, "");
-        Key key{pair.array()[0].number(), {}};
+        Keyframe key{pair.array()[0].number(), {}};
         field.type().toNumbers(field.member(object), key.value.data());
         // The second number of a length is its unit: there is no way from 2 pixels to 5 % in between.
         const bool hasUnit = &field.type() == &fieldType<Length>() || &field.type() == &fieldType<PictureLength>();
-        if (hasUnit && !track.keys.empty() && track.keys.front().value[1] != key.value[1])
+        if (hasUnit && !track.keyframes.empty() && track.keyframes.front().value[1] != key.value[1])
             return fail(pair, "has keys in different units", "write all of them in one unit");
-        track.keys.push_back(key);
+        track.keyframes.push_back(key);
     }
-    std::stable_sort(
-        track.keys.begin(), track.keys.end(), [](const Key& a, const Key& b) { return a.frame < b.frame; });
-    field.type().fromNumbers(field.member(object), track.keys.front().value.data());
+    std::stable_sort(track.keyframes.begin(), track.keyframes.end(),
+        [](const Keyframe& a, const Keyframe& b) { return a.frame < b.frame; });
+    field.type().fromNumbers(field.member(object), track.keyframes.front().value.data());
     tracks.push_back(std::move(track));
 }
 

@@ -167,7 +167,7 @@ enum class Interpolation { constant, linear, smooth };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<Interpolation> = {"constant", "linear", "smooth"};
 
-struct Key {
+struct Keyframe {
     double frame = 0;
     std::array<double, 4> value{};
 };
@@ -176,7 +176,7 @@ struct Key {
 struct Track {
     const Field* field = nullptr;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<Key> keys;
+    std::vector<Keyframe> keyframes;
 };
 
 /// Writes the tracks' values at `frame` into the object.

@@ -76,7 +76,7 @@ HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource) {
         inputs += fmt::format("flat in {} {};\n", type, sent);
         members += line(member);
         arguments += fmt::format("{}{}{}", arguments.empty() ? "" : ", ", sent, isBool ? " != 0" : "");
-        result.slots += static_cast<int>((member.size + 15) / 16);
+        result.vectors += static_cast<int>((member.size + 15) / 16);
     }
     if (!members.empty()) {
         result.vertex = declaration(block, block.name + "Uniforms") + result.vertex;

@@ -39,7 +39,7 @@ void appendVectors(UniformBlock& block, std::string_view name, std::span<const g
 struct HandedOn {
     std::string vertex;    ///< declares the block and `void handOn_NAME()`, which the vertex shader calls
     std::string fragment;  ///< declares a variable NAME with the members
-    int slots = 0;         ///< how many of the inputs of a fragment shader this takes: vectors of four
+    int vectors = 0;       ///< how many of the inputs of a fragment shader this takes: vectors of four
 };
 
 HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource);

@@ -157,13 +157,13 @@ TEST(Params, constantsAreHandedOnWhereTheyAreUsed) {
     const Constants constants;
     UniformBlock block = makeUniformBlock("params", 1, kConstants, &constants);
     const HandedOn none = handOn(block, "float view_a = otherparams.a + params.ab;");
-    EXPECT_EQ(none.slots, 0);
+    EXPECT_EQ(none.vectors, 0);
     EXPECT_TRUE(none.fragment.empty());
     EXPECT_EQ(none.vertex, "void handOn_params() {\n}\n");
 
     appendVectors(block, "list", std::vector<glm::vec4>(3));
     const HandedOn some = handOn(block, "x = params.b.x + (params.d ? 1.0 : params.list[2].y);");
-    EXPECT_EQ(some.slots, 1 + 1 + 3);
+    EXPECT_EQ(some.vectors, 1 + 1 + 3);
     EXPECT_NE(some.vertex.find("flat out vec3 params_b;"), std::string::npos) << some.vertex;
     EXPECT_NE(some.vertex.find("params_d = int(paramsUniforms.d);"), std::string::npos) << some.vertex;
     EXPECT_NE(some.fragment.find("flat in vec4[3] params_list;"), std::string::npos) << some.fragment;

@@ -193,7 +193,7 @@ extern const Technique kDepthTangent, kDepthTangentLines;
 void build(EffectBuilder& graph, const Params& params) {
     graph.useEverySample();  // its occlusion is drawn with as sharp a pen as lines
     if (const auto* lines = graph.chosen(kDepthTangentLines)) {
-        // One image that is both. What the lines' section says of it would have to agree.
+        // One image that is both. What the lines' table says of it would have to agree.
         const LineParams defaults;
         for (const auto& f : kLineParams)
             if (f.type().text(f.constMember(lines->params.get())) != f.type().text(f.constMember(&defaults)))
