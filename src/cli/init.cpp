@@ -43,7 +43,7 @@ std::string sceneText(const SceneAt& scene, const std::string& name, const std::
     const double precision = 1e-5 * glm::distance(scene.camera.position, scene.camera.lookAt);
     return fmt::format(R"(# A scene: what there is to draw. Every key: limn techniques --format markdown
 version = 1
-up = "y"                     # or "z"
+up = "{6}"                     # or "{7}"
 
 [[mesh]]
 name = {0}
@@ -70,7 +70,8 @@ intensity = 1
 shadow = {{ resolution = 2048 }}    # without this line: no shadow, no cost
 {5})",
         jsonText(name), jsonText(file), vectorText(scene.camera.position, precision),
-        vectorText(scene.camera.lookAt, precision), vectorText(light.direction, 1e-6), materials);
+        vectorText(scene.camera.lookAt, precision), vectorText(light.direction, 1e-6), materials,
+        scene.info.up.z > 0 ? "z" : "y", scene.info.up.z > 0 ? "y" : "z");
 }
 
 /// A commented config beside it.
@@ -90,12 +91,12 @@ aovs = ["beauty"]            # also: shade albedo ambient_occlusion edges normal
         shellText(config), quickstartStyle(), jsonText(name + ".png"));
 }
 
-ExitCode run(const std::string& model, const std::string& folderText) {
+ExitCode run(const std::string& model, const std::string& folderText, const MeshFileOptions& options) {
     const std::filesystem::path folder = folderText;
     if (!isMeshFile(model))
         throw Error(ExitCode::usage, {model}, "is no mesh file",
             "name an OBJ file; for a scene that exists, write a config that begins with scene = \"FILE\"");
-    const LoadedScene loaded = loadScene(model);
+    const LoadedScene loaded = loadScene(model, options);
     const SceneAt scene = sceneAt(loaded, {.sections = {}});
     const std::string name = std::filesystem::path(model).stem().string();
     // A model called "scene" leaves that name to the scene.
@@ -123,10 +124,12 @@ ExitCode run(const std::string& model, const std::string& folderText) {
 void addInit(CLI::App& app, Chosen& chosen) {
     auto model = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>(".");
+    auto options = std::make_shared<MeshFileOptions>();
     auto* command = app.add_subcommand("init", "Write a commented scene and config to start from");
     command->add_option("MODEL", *model, "OBJ file")->required();
     command->add_option("--output", *folder, "Folder to write to")->type_name("DIR");
-    command->callback([=, &chosen] { chosen = [=] { return run(*model, *folder); }; });
+    addUpOption(*command, *options);
+    command->callback([=, &chosen] { chosen = [=] { return run(*model, *folder, *options); }; });
 }
 
 }  // namespace limn::cli

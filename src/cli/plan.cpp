@@ -77,9 +77,11 @@ void addPlan(CLI::App& app, Chosen& chosen) {
         ->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
     command
-        ->add_option("--subdivide", options->overrides.subdivide, "Take OBJ files as subdivision cages of this level")
+        ->add_option(
+            "--subdivide", options->overrides.meshFile.subdivide, "Take OBJ files as subdivision cages of this level")
         ->type_name("N")
         ->check(CLI::Range(0, 10));
+    addUpOption(*command, options->overrides.meshFile);
     command->add_option("--frame", options->frame, "Frame to plan; the first declared one without it")->type_name("N");
     command->add_option("--format", options->format, "text, json or dot")
         ->check(CLI::IsMember({"text", "json", "dot"}));

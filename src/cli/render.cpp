@@ -36,6 +36,15 @@ ExitCode run(RunOptions options, int asked) {
 
 }  // namespace
 
+void addUpOption(CLI::App& command, MeshFileOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--up", [&options](const std::string& axis) { options.up = axis == "z" ? Axis::z : Axis::y; },
+            "Axis that points up in mesh files: y (without it) or z")
+        ->type_name("AXIS")
+        ->check(CLI::IsMember({"y", "z"}));
+}
+
 void addDeviceFlags(CLI::App& command, SessionOptions& session) {
     command
         .add_option(
@@ -67,10 +76,11 @@ void addRender(CLI::App& app, Chosen& chosen) {
         ->allow_extra_args(false);
     command->add_option("--camera", options->overrides.camera, "Camera of the scene to draw from")->type_name("NAME");
     command
-        ->add_option(
-            "--subdivide", options->overrides.subdivide, "Draw OBJ files as Catmull-Clark surfaces of this level")
+        ->add_option("--subdivide", options->overrides.meshFile.subdivide,
+            "Draw OBJ files as Catmull-Clark surfaces of this level")
         ->type_name("N")
         ->check(CLI::Range(0, 10));
+    addUpOption(*command, options->overrides.meshFile);
     command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")
         ->type_name("X,Y,W,H");
     command->add_option("--threads", *threads, "CPU threads; without it what the farm or the machine grants")

@@ -1,5 +1,6 @@
 #include "formats/format.h"
 
+#include "base/error.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -56,6 +57,12 @@ const std::vector<const SceneFormat*>& sceneFormats() { return registry<SceneFor
 
 const MeshFormat& meshFormat(const std::filesystem::path& path) { return formatOr<MeshFormat>(path, ".obj"); }
 const SceneFormat& sceneFormat(const std::filesystem::path& path) { return formatOr<SceneFormat>(path, ".toml"); }
+
+void requireFaces(const MeshFile& mesh) {
+    if (mesh.poly.faceCount() == 0)
+        throw Error(ExitCode::badData, {mesh.files.front().string()}, "there are no faces",
+            "limn draws polygons: export the model with faces");
+}
 
 Scene sceneOfMesh(const std::filesystem::path& path) {
     Scene scene;

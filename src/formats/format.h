@@ -27,6 +27,9 @@ struct MeshFile {
     Bounds bounds;                             ///< of all positions; made when the mesh is loaded
 };
 
+/// Throws Error (badData) where a mesh has no faces.
+void requireFaces(const MeshFile& mesh);
+
 struct MeshFormat {
     std::string_view extension;  ///< ".obj", in lower case
     std::string_view doc;

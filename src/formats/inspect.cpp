@@ -9,6 +9,7 @@ namespace limn {
 
 MeshFacts inspectMesh(const std::filesystem::path& path) {
     MeshFile file = meshFormat(path).read(path);
+    requireFaces(file);
     repairTopology(file.poly, file.warnings);
     const PolyMesh& mesh = file.poly;
     MeshFacts facts;
@@ -54,11 +55,14 @@ std::string meshFactsText(const MeshFacts& f) {
         fmt::format("{} non-manifold edges, {} non-manifold vertices, {} edges that cannot be wound alike, {} faces "
                     "without area, {} interior vertices with two faces",
             t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo));
+    const glm::dvec3 size = f.bounds.hi - f.bounds.lo;
     line("materials", fmt::format("{}", fmt::join(f.materials, ", ")));
     line("parts", f.parts.size() > 8 ? fmt::format("{}", f.parts.size()) : fmt::format("{}", fmt::join(f.parts, ", ")));
     line("box",
-        fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}], diagonal {:.6g}", f.bounds.lo.x,
-            f.bounds.lo.y, f.bounds.lo.z, f.bounds.hi.x, f.bounds.hi.y, f.bounds.hi.z, f.bounds.diagonal()));
+        f.bounds.empty() ? "empty"
+                         : fmt::format("[{}, {}, {}] to [{}, {}, {}]: {:.6g} × {:.6g} × {:.6g}, diagonal {:.6g}",
+                             f.bounds.lo.x, f.bounds.lo.y, f.bounds.lo.z, f.bounds.hi.x, f.bounds.hi.y, f.bounds.hi.z,
+                             size.x, size.y, size.z, f.bounds.diagonal()));
     line("tags",
         fmt::format("{} creases ({} infinitely sharp), {} corners, {} holes", f.creases, f.infiniteCreases, f.corners,
             f.holes));

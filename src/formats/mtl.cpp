@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/find_file.h"
+#include "formats/model_text.h"
 #include "formats/obj_text.h"
 #include "mesh/topology.h"
 
@@ -86,7 +87,6 @@ public:
     Reader(const std::filesystem::path& folder, MtlFile& into) : folder_(folder), into_(into) {}
 
     void read(std::string_view text) {
-        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
         forEachLine(text, [&](std::string_view line, int number) {
             line_ = number;
             statement({line.data(), line.data() + line.size()});
@@ -278,9 +278,11 @@ void dropInvisible(const std::vector<std::string>& invisible, PolyMesh& mesh, st
 
 }  // namespace
 
-MtlFile parseMtl(std::string_view text, const std::filesystem::path& folder) {
+MtlFile parseMtl(std::string_view bytes, const std::filesystem::path& folder, const std::string& name) {
     MtlFile file;
-    Reader(folder, file).read(text);
+    if (bytes.empty()) return file;
+    const ModelText decoded(bytes, name);
+    Reader(folder, file).read(decoded.text());
     return file;
 }
 
@@ -302,7 +304,7 @@ std::vector<Material> readMaterials(const std::filesystem::path& objPath, PolyMe
             if (found.path.empty()) continue;
             MtlFile library;
             try {
-                library = parseMtl(readFile(found.path), found.path.parent_path());
+                library = parseMtl(readFile(found.path), found.path.parent_path(), found.path.string());
             } catch (const Error& error) {
                 warnings.push_back(
                     {fmt::format("material library '{}' {}; drawn without", name, error.problem), 1, 0, {}});
@@ -318,7 +320,7 @@ std::vector<Material> readMaterials(const std::filesystem::path& objPath, PolyMe
         }
     }
     // One material and not a word about where it goes: it can only be meant for everything.
-    if (materials.size() == 1 && mesh.materialNames == std::vector<std::string>{""}) {
+    if (materials.size() == 1 && !materials[0].name.empty() && mesh.materialNames == std::vector<std::string>{""}) {
         warnings.push_back(
             {fmt::format("no face names a material; all take the library's only one, '{}'", materials[0].name), 1, 0,
                 {}});

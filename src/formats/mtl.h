@@ -18,8 +18,9 @@ struct MtlFile {
 };
 
 /// Reads a library. Images are looked for beside it, in `folder`, and below (formats/find_file.h). Nothing in a library
-/// is an error: what has no meaning is a warning.
-MtlFile parseMtl(std::string_view text, const std::filesystem::path& folder);
+/// is an error: what has no meaning is a warning. Throws Error (badData) where the bytes are no text (ModelText);
+/// `name` stands for the file in messages.
+MtlFile parseMtl(std::string_view bytes, const std::filesystem::path& folder, const std::string& name = "MTL");
 
 /// The materials of all libraries that an OBJ names, looked for beside it. A missing library is a warning. Libraries
 /// that were read are added to `files`. Faces of invisible materials are dropped from the mesh; where no face names a

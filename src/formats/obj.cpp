@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "formats/format.h"
+#include "formats/model_text.h"
 #include "formats/obj_text.h"
 #include "settings/color.h"
 
@@ -491,8 +492,19 @@ private:
 
 }  // namespace
 
-ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+/// Are there vertices written like "v 0,5 1,0 2,25", as some programs do in some countries?
+static bool hasDecimalCommas(std::string_view text) {
+    bool found = false;
+    forEachLine(text.substr(0, 1 << 16), [&](std::string_view line, int) {
+        Cursor cursor{line.data(), line.data() + line.size()};
+        found = found || (cursor.word() == "v" && cursor.word().find(',') != std::string_view::npos);
+    });
+    return found;
+}
+
+ObjFile parseObj(std::string_view bytes, const std::string& name, int chunkCount) {
+    const ModelText decoded(bytes, name);
+    const std::string_view text = decoded.text();
     // Pieces of a megabyte keep every core busy without costing small files anything.
     const auto pieces = split(text,
         chunkCount > 0 ? static_cast<std::size_t>(chunkCount) : std::clamp<std::size_t>(text.size() >> 20, 1, 256));
@@ -510,9 +522,11 @@ ObjFile parseObj(std::string_view text, const std::string& name, int chunkCount)
         throw Error(ExitCode::badData, {name, merger.firstOutOfRange},
             fmt::format("{} of {} faces refer to vertices that do not exist", merger.outOfRange, merger.faces),
             "the file is damaged or cut off: export it again");
-    if (file.mesh.faceCount() == 0)
-        throw Error(ExitCode::badData, {name}, merger.faces ? "no face is usable" : "there are no faces",
-            "limn draws polygons: export the model with faces");
+    if (file.mesh.faceCount() == 0 && merger.faces > 0) {
+        if (hasDecimalCommas(text))
+            throw Error(ExitCode::badData, {name}, "the numbers have decimal commas", "export with decimal points");
+        throw Error(ExitCode::badData, {name}, "no face is usable", "export the model again");
+    }
     file.warnings = warnings.list();
     return file;
 }

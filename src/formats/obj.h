@@ -18,9 +18,9 @@ struct ObjFile {
     std::vector<MeshWarning> warnings;
 };
 
-/// Reads an OBJ. What can be mended is mended with a warning; throws Error (badData) when nothing usable remains or
-/// most faces point nowhere, and the errors of MappedFile when the file cannot be read. Parallel over the file; the
-/// result does not depend on threads.
+/// Reads an OBJ. What can be mended is mended with a warning; a file without faces gives a mesh without. Throws Error
+/// (badData) when no face is usable, most faces point nowhere, or the file is something else, and the errors of
+/// MappedFile when the file cannot be read. Parallel over the file; the result does not depend on threads.
 ObjFile readObj(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages. `chunks` splits the work (0: by size).
 ObjFile parseObj(std::string_view text, const std::string& name, int chunks = 0);

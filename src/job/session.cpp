@@ -25,8 +25,8 @@ void Session::loadAhead(const RenderConfig& config) {
     auto& loading = scenes_[nameOf(config)];
     if (loading.valid()) return;
     begun_[nameOf(config)] = std::filesystem::file_time_type::clock::now();
-    const auto load = [scene = config.scene, subdivide = config.subdivide] {
-        return std::make_shared<const LoadedScene>(loadScene(scene, subdivide));
+    const auto load = [scene = config.scene, options = config.meshFile] {
+        return std::make_shared<const LoadedScene>(loadScene(scene, options));
     };
     loading = std::async(std::launch::async, load).share();
 }

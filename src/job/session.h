@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,10 @@ public:
     Renderer& renderer();
 
 private:
-    using SceneName = std::pair<std::string, std::optional<int>>;  ///< file, and level of --subdivide
-    static SceneName nameOf(const RenderConfig& config) { return {config.scene.string(), config.subdivide}; }
+    using SceneName = std::tuple<std::string, std::optional<int>, std::optional<Axis>>;  ///< file, and MeshFileOptions
+    static SceneName nameOf(const RenderConfig& config) {
+        return {config.scene.string(), config.meshFile.subdivide, config.meshFile.up};
+    }
     using Loading = std::shared_future<std::shared_ptr<const LoadedScene>>;
 
     /// Size and time of a file; nullopt where it is gone.

@@ -176,7 +176,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     return view;
 }
 
-Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize) {
+Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize, const Reach& reach) {
     Camera camera;
     camera.name = "framing";
     camera.focalLength = 50;
@@ -186,23 +186,33 @@ Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize) {
     const glm::dvec3 towards = glm::normalize(0.8 * right + 0.55 * up + side);
     const Bounds& box = scene.bounds;
     camera.lookAt = box.empty() ? glm::dvec3(0) : box.centre();
-    if (box.empty() || box.diagonal() == 0) {
-        camera.position = camera.lookAt + towards * 2.0;
-        return camera;
-    }
-    // As close as every corner of the box allows, with a margin of 6 %.
-    camera.position = camera.lookAt + towards;
-    const glm::dmat3 toView = glm::transpose(cameraBasis(camera, up));
-    const double halfWidth = camera.sensorWidth / camera.focalLength / 2,
-                 halfHeight = halfWidth * imageSize.y / imageSize.x;
-    double distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(
-            corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z);
-        const glm::dvec3 q = toView * (p - camera.lookAt);
-        distance =
-            std::max({distance, q.z + 1.06 * std::abs(q.x) / halfWidth, q.z + 1.06 * std::abs(q.y) / halfHeight});
-    }
+    camera.position = camera.lookAt + towards * (box.empty() || box.diagonal() == 0 ? 2.0 : 1.0);
+    if (box.empty() || box.diagonal() == 0) return camera;
+    // A point (x, y, z) in the camera's directions, z towards it, stays within a half angle of tangent t of a camera at
+    // (a, b, d) where x - a <= t (d - z) and a - x <= t (d - z): what matters of all points is how far they reach in
+    // the directions (1, 0, t) and (-1, 0, t), and in height likewise. Both at once give a and d.
+    const glm::dmat3 basis = cameraBasis(camera, up);
+    const double wide = 0.85 * camera.sensorWidth / camera.focalLength / 2, high = wide * imageSize.y / imageSize.x;
+    struct Sides {
+        double after, before;
+    };
+    const auto sides = [&](int axis, double tangent) {
+        return Sides{reach(basis[axis] + tangent * basis[2]), reach(-basis[axis] + tangent * basis[2])};
+    };
+    const auto distanceFor = [](Sides s, double tangent) { return (s.after + s.before) / (2 * tangent); };
+    const Sides across = sides(0, wide), above = sides(1, high);
+    const double distance = std::max(distanceFor(across, wide), distanceFor(above, high));
+    // In the other direction there is room: the angle that is filled from there is found by going back and forth.
+    const auto middleOf = [&](int axis, Sides s, double tangent) {
+        for (int i = 0; i < 4 && distanceFor(s, tangent) < distance; ++i) {
+            tangent = (s.after + s.before) / (2 * distance);
+            s = sides(axis, tangent);
+        }
+        return (s.after - s.before) / 2;
+    };
+    const glm::dvec3 middle = basis[0] * middleOf(0, across, wide) + basis[1] * middleOf(1, above, high);
+    // Looks at the depth of the box's middle, wherever that lies in the picture.
+    camera.lookAt += middle;
     camera.position = camera.lookAt + towards * distance;
     return camera;
 }

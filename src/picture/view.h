@@ -14,6 +14,8 @@
 #include "scene/scene.h"
 #include "settings/uniform_block.h"
 
+#include <functional>
+
 namespace limn {
 
 /// Facts about the scene that effects may need.
@@ -92,8 +94,11 @@ struct ViewRequest {
 
 View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& request);
 
-/// The camera of a scene that has none: three-quarter view that frames everything.
-Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize);
+/// How far what is to be framed reaches in a direction from the middle of the scene's box: the largest dot product.
+using Reach = std::function<double(const glm::dvec3& direction)>;
+/// The camera of a scene that has none: a three-quarter view in which everything fills 85 % of the picture, in
+/// whichever direction it first does.
+Camera framingCamera(const SceneInfo& scene, glm::ivec2 imageSize, const Reach& reach);
 /// The light of a scene that has none: a sun over the camera's left shoulder.
 Light defaultSun(const Camera& camera, const SceneInfo& scene);
 

@@ -120,7 +120,8 @@ public:
         for (const auto& setting : overrides.settings) applySetting(document_, setting);
         config_.file = path;
         KeyBuilder key;
-        key.add(canonicalText(document_)).add(overrides.camera).add(overrides.subdivide.value_or(-1));
+        key.add(canonicalText(document_)).add(overrides.camera).add(overrides.meshFile.subdivide.value_or(-1));
+        if (overrides.meshFile.up) key.add(*overrides.meshFile.up);
         config_.hash = key.key().hex();
     }
 
@@ -135,7 +136,7 @@ public:
         readVersion(document_, "the config", errors_);
         readFields(document_, kHeader, &header, nullptr, "the config", errors_, sections);
         config_.camera = overrides_.camera.empty() ? header.camera : overrides_.camera;
-        config_.subdivide = overrides_.subdivide;
+        config_.meshFile = overrides_.meshFile;
         config_.sections = header.sections;
         if (!header.scene.empty()) {
             config_.scene = pathIn(*document_.find("scene"));

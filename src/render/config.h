@@ -35,10 +35,10 @@ struct OutputSettings {
 };
 
 struct RenderConfig {
-    std::filesystem::path file;    ///< what it was read from
-    std::filesystem::path scene;   ///< scene file, or an OBJ
-    std::string camera;            ///< empty: the scene's first
-    std::optional<int> subdivide;  ///< level for an OBJ that is the scene itself
+    std::filesystem::path file;   ///< what it was read from
+    std::filesystem::path scene;  ///< scene file, or an OBJ
+    std::string camera;           ///< empty: the scene's first
+    MeshFileOptions meshFile;     ///< where the scene is a mesh file
     ImageSettings image;
     Choices choices;
     std::vector<std::string> sections;  ///< names of the scene's sections to cut by
@@ -62,7 +62,7 @@ std::vector<ConfigTable> configTables();
 struct ConfigOverrides {
     std::vector<std::string> settings;  ///< KEY=VALUE
     std::string camera;
-    std::optional<int> subdivide;  ///< draw OBJ files as Catmull-Clark surfaces of this level
+    MeshFileOptions meshFile;  ///< where the scene is a mesh file
 };
 
 /// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).

@@ -124,6 +124,12 @@ struct MeshSource {
     std::filesystem::path at(int frame) const;
 };
 
+/// How a mesh file is drawn that is a scene by itself.
+struct MeshFileOptions {
+    std::optional<int> subdivide;  ///< as a Catmull-Clark surface of this level
+    std::optional<Axis> up;        ///< the axis that points up; y if nothing is said
+};
+
 struct Instance {
     std::string name;
     std::string mesh;

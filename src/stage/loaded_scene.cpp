@@ -39,6 +39,11 @@ MeshFile readMesh(const MeshSource& source, int frame) {
         for (const auto& file : sidecar) key.add(MappedFile(file).text());
         mesh.files.insert(mesh.files.end(), sidecar.begin(), sidecar.end());
     }
+    // An animation may begin or end with nothing.
+    if (!source.perFrame)
+        requireFaces(mesh);
+    else if (mesh.poly.faceCount() == 0)
+        mesh.warnings.push_back({"there are no faces; an empty frame", 1, 0, {}});
     const bool repairs = source.subdivision.present || mesh.poly.cornerNormal.empty();
     if (repairs) repairTopology(mesh.poly, mesh.warnings);
     mesh.key = key.add(repairs).key();
@@ -189,17 +194,31 @@ std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const 
     return options;
 }
 
-LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subdivide) {
+/// Scans, CAD and maps count z upwards: such a model stands on z = 0, and goes through y = 0.
+static void hintAtUp(const LoadedScene& loaded) {
+    const Bounds& box = loaded.bounds;
+    if (box.empty()) return;
+    const glm::dvec3 size = box.hi - box.lo;
+    if (std::abs(box.lo.z) < 0.03 * size.z && box.lo.y < -0.03 * size.y)
+        log::info("{}: y is taken for up, but the model stands on z = 0: where it lies on its back, add --up z",
+            loaded.scene.file);
+}
+
+LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& options) {
     LoadedScene loaded;
     loaded.viewers = makeEdgeViewers();
     if (isMeshFile(path)) {
         loaded.scene = sceneOfMesh(path);
-        if (subdivide) loaded.scene.meshes.front().subdivision = {.present = true, .level = *subdivide};
+        loaded.scene.up = options.up.value_or(Axis::y);
+        if (options.subdivide) loaded.scene.meshes.front().subdivision = {.present = true, .level = *options.subdivide};
     } else {
-        if (subdivide)
+        if (options.subdivide)
             throw Error(ExitCode::usage, {path.string()},
                 "--subdivide is for mesh files; a scene says itself what is subdivided",
                 "write subdivision = { level = 2 } under its [[mesh]]");
+        if (options.up)
+            throw Error(ExitCode::usage, {path.string()},
+                "--up is for mesh files; a scene says itself which axis points up", "write up = \"z\" into it");
         SceneFile file = sceneFormat(path).read(path);
         loaded.scene = std::move(file.scene);
         loaded.files = std::move(file.files);
@@ -219,7 +238,9 @@ LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subd
 
     KeyBuilder key;
     for (const auto& file : loaded.files) key.add(MappedFile(file).text());
-    if (subdivide) key.add(*subdivide);
+    if (options.subdivide) key.add(*options.subdivide);
+    if (options.up) key.add(*options.up);
+    if (isMeshFile(path) && !options.up) hintAtUp(loaded);
     for (const auto& material : loaded.scene.materials)
         for (const auto& image : {material.base.texture, material.base.cutout}) addImage(loaded.images, image);
     for (const auto& [file, image] : loaded.images) {

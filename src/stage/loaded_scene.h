@@ -55,8 +55,8 @@ std::size_t meshIndex(const Scene& scene, const std::string& name);
 std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const PolyMesh& mesh);
 
 /// Reads a scene, or a mesh file as a scene of its own, and every mesh that its first declared frame draws. All
-/// problems at once (Errors). `subdivide` draws a mesh file as a surface of that level; throws Error (usage) where a
-/// scene says itself what is subdivided.
-LoadedScene loadScene(const std::filesystem::path& path, std::optional<int> subdivide = {});
+/// problems at once (Errors). Throws Error (usage) where there are options for a mesh file, and a scene says these
+/// things itself.
+LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
 }  // namespace limn

@@ -3,8 +3,11 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace limn {
@@ -137,11 +140,44 @@ Light lightAt(const Keyed<Light>& keyed, const std::string& file, double frame) 
     return light;
 }
 
+/// How far the instances reach at the first declared frame, so that the camera stands still over all frames.
+double reachOf(const LoadedScene& loaded, const glm::dvec3& direction) {
+    const int first = loaded.scene.firstFrame();
+    const glm::dvec3 centre = loaded.bounds.centre();
+    const bool moves = std::any_of(
+        loaded.scene.meshes.begin(), loaded.scene.meshes.end(), [](const MeshSource& mesh) { return mesh.perFrame; });
+    if (moves) {  // the files of that frame may be gone from memory
+        const glm::dvec3 half = (loaded.bounds.hi - loaded.bounds.lo) / 2.0;
+        return glm::dot(glm::abs(direction), half);
+    }
+    const auto meshes = loaded.meshes->at(first);
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const auto& keyed : loaded.scene.instances) {
+        const Instance instance = keyed.at(first);
+        const PolyMesh& poly = meshes[meshIndex(loaded.scene, instance.mesh)]->poly;
+        const glm::dmat4 world = instance.transform();
+        const glm::dvec3 inMesh = glm::transpose(glm::dmat3(world)) * direction;
+        const double offset = glm::dot(glm::dvec3(world[3]) - centre, direction);
+        const double most = tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, poly.cornerPosition.size(), 1 << 16),
+            -std::numeric_limits<double>::infinity(),
+            [&](const auto& range, double found) {
+                for (std::size_t c = range.begin(); c != range.end(); ++c)
+                    found = std::max(found, glm::dot(poly.positions[poly.cornerPosition[c]], inMesh));
+                return found;
+            },
+            [](double a, double b) { return std::max(a, b); });
+        reach = std::max(reach, most + offset);
+    }
+    return reach;
+}
+
 /// The camera that a request names, before its sheet's scale.
 Camera chooseCamera(const LoadedScene& loaded, const FrameRequest& request) {
     const auto& cameras = loaded.scene.cameras;
     if (request.camera.empty())
-        return cameras.empty() ? framingCamera(sceneInfo(loaded), request.imageSize)
+        return cameras.empty() ? framingCamera(sceneInfo(loaded), request.imageSize,
+                   [&](const glm::dvec3& direction) { return reachOf(loaded, direction); })
                                : cameras.front().at(request.frame);
     std::vector<std::string> names;
     names.reserve(cameras.size());

@@ -55,7 +55,7 @@ protected:
 
 TEST_F(Errors, aBadFrameFailsAloneWhereTheOthersGoOn) {
     for (const int frame : {1, 2, 3}) write(fmt::format("m_{}.obj", frame), boxObj({-1, -1, -1}, {1, frame, 1}));
-    write("m_1.obj", "v 0 0 0\n");
+    write("m_1.obj", "v 0 0 0\nf 1 2 3\n");
     write("scene.toml", "[animation]\nframes = \"2-3\"\n[[mesh]]\nname = \"m\"\nfile = \"m_#.obj\"\n");
     // The bad one is first: what was begun for it must not come up again.
     const RunResult r = run("render config.toml --frames 1-3 --keep-going --output out/p_#.png");
@@ -109,7 +109,7 @@ TEST_F(Errors, wordsAndNumbers) {
     write("aov.toml", kConfig + "aovs = [\"dept\"]\n");
     expect("render aov.toml", 64, "did you mean 'depth'?");
     write("noao.toml", kConfig + "aovs = [\"ambient_occlusion\"]\n");
-    expect("render noao.toml", 64, "add a section [ao]");
+    expect("render noao.toml", 64, "add a table [ao]");
     expect("render config.toml --set image.size=[0,4]", 64, "must be 1 to 65536");
     expect("render config.toml --camera nowhere", 64, "no camera 'nowhere'");
     expect("render config.toml --crop 1,2,3", 64, "X,Y,W,H");
@@ -140,9 +140,9 @@ TEST_F(Errors, missingAndBrokenFiles) {
     write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
     expect("render bad.obj", 65, "bad.obj:4: 1 of 1 faces refer to vertices that do not exist");
     write("empty.obj", "");
-    expect("render empty.obj", 65, "there are no faces");
+    expect("render empty.obj", 65, "the file is empty");
     write("binary.obj", std::string("\x00\x01\xff\xfe garbage \x7f", 18));
-    expect("render binary.obj", 65, "there are no faces");
+    expect("render binary.obj", 65, "the file is binary");
     write("instance.toml", "[[mesh]]\nname = \"m\"\nfile = \"m.obj\"\n[[instance]]\nmesh = \"n\"\n");
     write("i.toml", "scene = \"instance.toml\"\n");
     expect("render i.toml", 64, "instance.toml:5:8: there is no mesh named 'n'");

@@ -15,7 +15,7 @@ namespace {
 /// Exit code, faces and kinds of warning, as a line of the manifest.
 std::string outcome(const std::filesystem::path& path) {
     const auto general = [](const std::string& kind) {
-        return std::regex_replace(kind, std::regex("^(texture|material library) '.*'"), "$1 '...'");
+        return std::regex_replace(kind, std::regex("^(texture|material library) '.*?'"), "$1 '...'");
     };
     try {
         const MeshFacts facts = inspectMesh(path);

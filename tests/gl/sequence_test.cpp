@@ -34,7 +34,7 @@ TEST(Sequence, drawsTheFileOfEachFrame) {
 
     // A bad file fails its own frame only.
     for (const int frame : {2, 3}) EXPECT_EQ(*draw(config, loaded, {}, frame).aov("depth").at(8, 8), 5 + frame);
-    replaceFile(folder / "wall_004.obj", "v 0 0 0\n");
+    replaceFile(folder / "wall_004.obj", "v 0 0 0\nf 1 2 3\n");
     EXPECT_THROW(renderer().render(config, loaded, 4, {}), Errors);
     for (const int frame : {3, 2}) EXPECT_EQ(*draw(config, loaded, {}, frame).aov("depth").at(8, 8), 5 + frame);
 
@@ -47,6 +47,26 @@ TEST(Sequence, drawsTheFileOfEachFrame) {
         EXPECT_EQ(errors.list[0].code, ExitCode::missingInput);
         EXPECT_NE(errors.list[0].problem.find("wall_001.obj' does not exist, nor do 2 more"), std::string::npos)
             << errors.list[0].problem;
+    }
+}
+
+TEST(Sequence, mayBeginWithNothing) {
+    const TemporaryFolder temporary;
+    const std::filesystem::path& folder = temporary.path();
+    replaceFile(folder / "m_1.obj", "# nothing yet\n");
+    replaceFile(folder / "m_2.obj", sphereObj(1, 16));
+    replaceFile(folder / "scene.toml", "[animation]\nframes = \"1-2\"\n[[mesh]]\nname = 'm'\nfile = 'm_#.obj'\n");
+    const LoadedScene loaded = loadScene(folder / "scene.toml");
+    for (const char* technique : {"hbao", "ray_traced"}) {
+        const RenderConfig config =
+            makeConfig(fmt::format("shading = 'toon'\n[image]\nsize = [32, 24]\nsamples = 2\n[ao]\ntechnique = '{}'\n"
+                                   "[[edges]]\ntechnique = 'depth_normal'\n[output]\naovs = ['beauty', 'object_id']\n",
+                technique));
+        const Picture empty = draw(config, loaded, {}, 1), full = draw(config, loaded, {}, 2);
+        for (const float id : empty.aov("object_id").pixels) ASSERT_EQ(id, 0);
+        for (std::size_t i = 4; i < empty.aov("beauty").pixels.size(); ++i)
+            ASSERT_EQ(empty.aov("beauty").pixels[i], empty.aov("beauty").pixels[i % 4]) << "background alone";
+        EXPECT_EQ(*full.aov("object_id").at(16, 12), 1);
     }
 }
 

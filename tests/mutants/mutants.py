@@ -103,6 +103,10 @@ class Copy:
         subprocess.run(["cmake", "--preset", "ci"], cwd=self.folder, check=True, capture_output=True)
         if not self.make():
             sys.exit("the sources do not build")
+        # A test that fails anyway would kill every mutant.
+        for shaders in (False, True):
+            if killer := self.kill(shaders):
+                sys.exit("without a mutant: " + killer)
 
     def make(self):
         targets = ["limn", "limn_oiio"] + [name for name, _ in SUITES]

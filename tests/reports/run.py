@@ -31,14 +31,29 @@ class Picture:
         self.width, self.height, self.channels, _, self.samples = png(path)
 
     def at(self, x, y):
-        """Red, green, blue."""
+        """Red, green and blue of the pixel."""
         first = (int(y) * self.width + int(x)) * self.channels
         return tuple(self.samples[first : first + 3])
+
+    def covered(self):
+        """Rows and columns of the pixels that are no background."""
+        nothing, step = self.samples[: self.channels], self.channels
+        return {
+            divmod(i // step, self.width)
+            for i in range(0, len(self.samples), step)
+            if self.samples[i : i + step] != nothing
+        }
 
     def place(self, x, y, height=1.4, centre=(3.5, 0.5)):
         """The colour at a place in the plane that an orthographic camera looks at, in scene units."""
         scale = self.height / height
         return self.at(self.width / 2 + (x - centre[0]) * scale, self.height / 2 - (y - centre[1]) * scale)
+
+
+def assert_same_place(one, other):
+    """Both cover the same pixels, but for some along the outline: a scene file has rounded numbers."""
+    different = one.covered() ^ other.covered()
+    assert len(different) < 0.002 * len(one.covered()), "%d pixels differ" % len(different)
 
 
 def folder(number):
@@ -167,6 +182,56 @@ def long_image_35():
     _, said = draw(folder("35") + "/t16000x64.obj")
     assert "drawn with 8000×32" in said, said
     assert "larger than" not in said, said
+
+
+@report
+def far_from_the_origin_16():
+    model = folder("16") + "/kiosk.obj"
+    direct, _ = draw(model)
+    run("init", model, "--output", "kiosk")
+    begun, _ = draw("kiosk/kiosk.toml")
+    assert_same_place(direct, begun)
+    rows, columns = zip(*direct.covered())
+    # 85 % of the picture's height, in the middle.
+    found = min(rows), max(rows) + 1, min(columns), max(columns) + 1
+    assert abs(found[1] - found[0] - 0.85 * direct.height) < 3, found
+    assert abs(found[0] + found[1] - direct.height) < 3 and abs(found[2] + found[3] - direct.width) < 3, found
+    _, said = run("mesh", model)
+    low, high = said.split("box")[1].split("\n")[0].split(" to ")
+    low, high = [[float(n) for n in part.split("[")[1].split("]")[0].split(",")] for part in (low, high)]
+    assert all(abs(b - a - 2.4) < 1e-6 for a, b in zip(low, high)), said
+
+
+@report
+def odd_structure_28():
+    for path in sorted(glob.glob(folder("28") + "/*.[oO][bB][jJ]")):
+        name = os.path.basename(path)
+        what = {
+            "commas.obj": "decimal commas",
+            "empty.obj": "the file is empty",
+            "gitlfs.obj": "git lfs pull",
+            "html.obj": "a web page",
+            "zip.obj": "ZIP",
+        }.get(name)
+        if what:
+            said, _ = run("render", path, "--output", "out.png", expect=65)
+            assert what in said and "export the model with faces" not in said, said
+        else:
+            picture, _ = draw(path, "--set", "image.size=[64,48]", "--set", "image.samples=1")
+            assert picture.at(32, 24) != picture.at(0, 0), name + " is not drawn"
+
+
+@report
+def z_up_38():
+    house = folder("38") + "/house.obj"
+    lying, said = draw(house)
+    assert said.count("--up z") == 1, said
+    standing, said = draw(house, "--up", "z")
+    assert "--up" not in said, said
+    run("init", house, "--up", "z", "--output", "house")
+    begun, _ = draw("house/house.toml")
+    assert_same_place(standing, begun)
+    assert len(standing.covered() ^ lying.covered()) > 0.05 * len(lying.covered())
 
 
 def main():
