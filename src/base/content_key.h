@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// 128 bits of XXH3 over all bytes. The key is no secret, but different contents will not share one by chance.
+/// 128 bits of XXH3 over all bytes. The hash is no secret, but different contents will not share one by chance.
 struct ContentKey {
     std::uint64_t low = 0, high = 0;
     auto operator<=>(const ContentKey&) const = default;
