@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// The side of a line, as seen from the surface that it bounds.
+/// The side of a surface's border on which its line lies.
 enum class LineSide { both, inner, outer };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<LineSide> = {"both", "inner", "outer"};

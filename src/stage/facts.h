@@ -1,4 +1,4 @@
-// What effects may know about a scene at a frame.
+// Facts about a scene at a frame, for effects.
 #pragma once
 
 #include "stage/scene_at.h"
@@ -21,7 +21,8 @@ struct SceneFacts {
     bool lineRecords = false;   ///< some object or material says something about its lines
     bool sections = false;      ///< something is cut open
     bool hatched = false;       ///< and its cut faces are hatched
-    int triangleBits = 0;       ///< of a number that names an instance and its triangle, where 32 bits can; else 0
+    int triangleBits =
+        0;  ///< bits of the triangle in a 32-bit number of instance and triangle; 0 where that is too small
 };
 
 SceneFacts sceneFacts(const SceneAt& scene);
