@@ -57,7 +57,7 @@ ClusterBounds boundsOf(
         result.box = corner == 0 ? Box{at, at} : Box{least(result.box.low, at), most(result.box.high, at)};
     }
     const glm::vec4 terms = mesh.terms * glm::vec4(glm::abs(cluster.centre) + cluster.half, 1);
-    const float ofW = terms.w / leastW[3];  // factor on the rounding of w, by which all is divided
+    const float ofW = terms.w / leastW[3];  // relative error of w, the divisor of all, in roundings
     result.room = kGridStep + kRounding * (std::max(terms.x, terms.y) / leastW[3]) * ofW;
     result.depthRoom = view.orthographic ? 1e-5f + kRounding * terms.z
                                          : 1e-4f + kRounding * ofW;  // the first term covers interpolation's rounding

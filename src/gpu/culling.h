@@ -20,7 +20,7 @@ struct PlacedMesh {
     std::size_t firstPosition = 0, firstIndex = 0;  ///< of the mesh, in TriangleSource
     /// Gives fine pixels of the canvas (xy) and the depth buffer's value (z), all times w, and w.
     glm::mat4 pixelFromMesh{1};
-    /// The same with every term's absolute value: its results bound the rounding errors.
+    /// The same with every term's absolute value: rounding errors grow with its results.
     glm::mat4 terms{0};
     glm::vec3 eye{0};  ///< orthographic: the direction to it
 };
@@ -58,8 +58,8 @@ std::vector<SeenPart> partsOf(const CullView& view);
 /// Appends the triangles that face the camera and may be visible.
 void chooseFacing(const CullView& view, const TriangleSource& source, SeenPart& part);
 
-/// Then replaces them by visible triangles that turn their backs to the camera. Closed meshes have few of them once
-/// their fronts are drawn.
+/// Then appends the visible triangles that turn their backs to the camera. Closed meshes have few of them once their
+/// fronts are drawn.
 void chooseBacks(const CullView& view, const TriangleSource& source, const FarthestDepths& farthest, SeenPart& part);
 
 }  // namespace limn

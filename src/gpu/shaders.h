@@ -15,8 +15,8 @@ public:
     explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
     bool contains(const std::string& path) const;
-    /// The source, with each file of an `#include "lib/x.glsl"` line in its place once. Call from one thread. Throws
-    /// Error.
+    /// The source, with `#include "lib/x.glsl"` lines replaced by their files, each file once. Call from one thread.
+    /// Throws Error.
     std::string load(const std::string& path) const;
 
 private:
