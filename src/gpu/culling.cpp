@@ -59,8 +59,8 @@ ClusterBounds boundsOf(
     const glm::vec4 terms = mesh.terms * glm::vec4(glm::abs(cluster.centre) + cluster.half, 1);
     const float ofW = terms.w / leastW[3];  // relative error of w, the divisor of all, in roundings
     result.room = kGridStep + kRounding * (std::max(terms.x, terms.y) / leastW[3]) * ofW;
-    result.depthRoom = view.orthographic ? 1e-5f + kRounding * terms.z
-                                         : 1e-4f + kRounding * ofW;  // the first term covers interpolation's rounding
+    result.depthRoom =
+        view.orthographic ? 1e-5f + kRounding * terms.z : 1e-4f + kRounding * ofW;  // constants cover interpolation
     result.isEverywhere = !(leastW[3] > 1e-4f * terms.w) || !(result.room < 1e4f);
     return result;
 }

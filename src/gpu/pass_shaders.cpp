@@ -91,7 +91,7 @@ int plainSuns(const Pass& pass) {
     return count <= 3 ? count : 0;
 }
 
-/// Hands the view, parameters and lights that a fragment shader uses on to it. Gives the vertex shader's part, with a
+/// Hands a fragment shader the view, parameters and lights that it uses. Gives the vertex shader's part, with a
 /// function handOn(), and the fragment shader's declarations.
 HandedOn handAllOn(const Pass& pass, const UniformBlock& view, std::string_view source, const ShaderLibrary& library) {
     HandedOn all = handOn(view, source);

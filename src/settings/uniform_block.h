@@ -33,8 +33,8 @@ void appendWords(UniformBlock& block, std::string_view name, std::span<const std
 /// The same: `vec4 NAME[]`.
 void appendVectors(UniformBlock& block, std::string_view name, std::span<const glm::vec4> vectors);
 
-/// GLSL that hands the members a fragment shader uses on to it, as flat outputs of the vertex shader. Software
-/// renderers read a uniform anew for each pixel of a group, at ten times the cost of a flat input.
+/// GLSL that hands a fragment shader the members that it uses, as flat outputs of the vertex shader. Software renderers
+/// read a uniform anew for each pixel of a group, at ten times the cost of a flat input.
 struct HandedOn {
     std::string vertex;    ///< declares the block and `void handOn_NAME()`, which the vertex shader calls
     std::string fragment;  ///< declares a variable NAME with the members

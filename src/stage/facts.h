@@ -21,8 +21,7 @@ struct SceneFacts {
     bool lineRecords = false;   ///< some object or material says something about its lines
     bool sections = false;      ///< something is cut open
     bool hatched = false;       ///< and its cut faces are hatched
-    int triangleBits =
-        0;  ///< bits of the triangle in a 32-bit number of instance and triangle; 0 where that is too small
+    int triangleBits = 0;       ///< bits of a triangle's number, beside its instance's in 32 bits; 0 if both do not fit
 };
 
 SceneFacts sceneFacts(const SceneAt& scene);

@@ -16,7 +16,7 @@ using ImageKeys = std::map<std::string, ContentKey>;
 
 /// Covers everything about a material that a picture can show, the bytes of its images included.
 ContentKey materialKey(const Material& material, const ImageKeys& images);
-/// Covers the material's images alone, if it has any.
+/// Covers the material's images alone; empty if it has none.
 ContentKey textureKey(const Material& material, const ImageKeys& images);
 /// Covers everything about a light.
 ContentKey lightKey(const Light& light);

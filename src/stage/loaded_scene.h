@@ -14,8 +14,8 @@ namespace limn {
 
 using SharedMesh = std::shared_ptr<const MeshFile>;
 
-/// The mesh files of a scene, each read on first use. Of a mesh with a file for
-/// each frame, the last two that were read are kept. May be used from several threads.
+/// The mesh files of a scene, each read on first use. Of a mesh with a file for each frame, the last two that were read
+/// are kept. May be used from several threads.
 class MeshLibrary {
 public:
     /// `isDrawn`: of each mesh, whether an instance draws it; the others are never read.
