@@ -120,8 +120,7 @@ void putIntoBand(
         band.pixels.resize(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height)
             * static_cast<std::size_t>(band.channels));
     }
-    const int skipped =
-        tile.origin.y + tile.size.y - bandRect.origin.y - bandRect.size.y;  // rows of the tile above the band
+    const int skipped = tile.origin.y + tile.size.y - bandRect.origin.y - bandRect.size.y;  // its rows above the band
     for (int y = 0; y < bandRect.size.y && left < right; ++y) {
         const float* from = image.at(left - tile.origin.x, skipped + y);
         std::copy(from, from + static_cast<std::ptrdiff_t>(right - left) * image.channels,
