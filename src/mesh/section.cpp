@@ -113,7 +113,8 @@ private:
     }
 
     void fill() {
-        // Walks outlines from point to point. Where several leave a point any will do: winding decides what is inside.
+        // Walks outlines from point to point. Where several lines leave a point, any of them will do: winding decides
+        // what is inside.
         std::vector<glm::dvec3> points;
         std::unordered_map<glm::vec3, std::uint32_t, PointHash> number;
         const auto numberOf = [&](const glm::vec3& p) {
