@@ -16,7 +16,7 @@ namespace {
 
 using limn::ExitCode;
 
-/// Drivers crash now and then when a process ends. Every file is in place by now: leave without asking them.
+/// Drivers sometimes crash when a process ends. Every file is in place by now: leave without running them.
 [[noreturn]] void leave(ExitCode code) {
     std::fflush(nullptr);
     _exit(static_cast<int>(code));
@@ -32,7 +32,7 @@ ExitCode report(const limn::Error& error) {
 int main(int argc, char** argv) {
     using namespace limn;
     keepFreedMemory();
-    // A file that grows past its limit must be an error we report, not a signal that kills us.
+    // Files that grow past the limit must give an error that we report, not a signal that kills us.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
 

@@ -1,4 +1,4 @@
-// A sample's part of the sum over a pixel's samples.
+// Adds a sample to the sum over a pixel's samples.
 #include "lib/space.glsl"
 
 void main() {

@@ -1,4 +1,4 @@
-// The farthest depth of each square of SIDE × SIDE pixels of a depth buffer: what lies behind it cannot be seen there.
+// The farthest depth of each square of SIDE × SIDE pixels of a depth buffer: anything behind it is invisible there.
 // Depth is reversed: the least value is the farthest.
 layout(binding = 0) uniform sampler2D depth;
 layout(location = 0) out float farthest;

@@ -1,4 +1,4 @@
-// For vertex shaders that hand on what fragment shaders read of suns without shadows; see scene/lights.glsl.
+// For vertex shaders that hand suns without shadows on to fragment shaders; see scene/lights.glsl.
 #include "scene/lights.glsl"
 
 flat out vec4 sunDirection[LIGHT_COUNT], sunColor[LIGHT_COUNT];

@@ -1,5 +1,4 @@
-// Squares of pixels, for devices that run screen passes in the raster pipeline, where only a part of the picture is
-// wanted.
+// Squares of pixels, for screen passes in the raster pipeline that want only a part of the picture.
 
 layout(location = 0) in vec2 tile;  // its middle, in tiles
 uniform int tilesX, tilesY;

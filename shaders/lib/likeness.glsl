@@ -1,5 +1,4 @@
-// How alike two pixels' surfaces are, for filters that must not mix what does not belong together. Include after
-// lib/space.glsl.
+// The likeness of two pixels' surfaces, for filters that must not mix different surfaces. Include after lib/space.glsl.
 
 // Distance of a tap's surface from a pixel's tangent plane, in widths of a pixel there: 0 on a plane at any tilt, large
 // across an outline.

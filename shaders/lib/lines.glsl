@@ -1,14 +1,14 @@
-// Where lines run: between the centres of neighbouring pixels, at a place known to a fraction of a pixel.
+// The places of lines: between the centres of neighbouring pixels, known to a fraction of a pixel.
 //
-// Each pixel says of its way to the pixel at its right (x) and of the way to the one above it (y) whether a line
-// crosses it, where, and what line it is. Four pixels whose centres form a square make a cell; crossings on the sides
-// of a cell are joined into pieces of line.
+// Each pixel has two ways: to the pixel at its right (x) and to the one above it (y). For each it stores whether a line
+// crosses it, where, and which line. Four pixels whose centres form a square make a cell. Crossings on the sides of a
+// cell are joined into pieces of line.
 
-// What a technique finds out first, per pixel: five bits for the way to the right, five for the way up.
+// A technique's first result per pixel: five bits for the way to the right, five for the way up.
 struct Side {
-    uint source;        // why there is a line; NO_SOURCE: there is none
-    bool ownedByOther;  // the line bounds the surface seen in the neighbour, not the one seen here
-    bool isEnd;         // what the line bounds ends there, in front of something else or of nothing
+    uint source;        // the reason for the line; NO_SOURCE: no line
+    bool ownedByOther;  // the line bounds the neighbour's visible surface, not this pixel's
+    bool isEnd;         // the line's owner ends there, in front of something else or of nothing
 };
 
 uint encodeSide(Side s) { return s.source == 0u ? 0u : s.source | (uint(s.ownedByOther) << 3) | (uint(s.isEnd) << 4); }
@@ -22,11 +22,11 @@ Side decodeSide(uint sides, int direction) {
 // One crossing, packed in 32 bits: place 8, source 3, record 8, thickness 6, strength 6, owner 1.
 struct Crossing {
     float place;        // 0 at this pixel's centre, 1 at the neighbour's
-    uint source;        // why there is a line; NO_SOURCE: there is none
+    uint source;        // the reason for the line; NO_SOURCE: no line
     uint record;        // of the overrides that scenes give to objects and materials; 0: none
     float thickness;    // factor on the width
     float strength;     // factor on the opacity
-    bool ownedByOther;  // the line bounds the surface seen in the neighbour, not the one seen here
+    bool ownedByOther;  // the line bounds the neighbour's visible surface, not this pixel's
 };
 
 // Passes that include this define the numbers of sources, from 1: src/lines/sources.h.
@@ -49,11 +49,11 @@ bool ownedByOther(uint code) { return (code >> 31) != 0u; }
 struct Piece {
     vec2 from, to;
     uint code;         // of the crossing that it begins at
-    bool ownerIsLeft;  // what the line bounds lies at its left, seen along it
+    bool ownerIsLeft;  // the line's owner lies at its left, looking along it
 };
 
-// x: its ends, 8 bits each; never 0, for the ends lie on different sides, or one in the middle. y: its crossing's code,
-// with ownerIsLeft in the owner's bit.
+// x: its ends, 8 bits each; never 0, since the ends lie on different sides, or one lies in the middle. y: its
+// crossing's code, with ownerIsLeft in the owner's bit.
 uvec2 encodePiece(Piece p) {
     uvec4 ends = uvec4(clamp(vec4(p.from, p.to), 0.0, 1.0) * 255.0 + 0.5);
     return uvec2(

@@ -1,4 +1,4 @@
-// What ambient occlusion means in every technique: an occluder counts up to the radius, and less the farther it is
+// The meaning of ambient occlusion in every technique: an occluder counts up to the radius, and less the farther it is
 // (rays/falloff.h).
 
 #define FALLOFF_NONE 0

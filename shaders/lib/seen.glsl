@@ -1,7 +1,7 @@
-// What the visibility buffer holds: which instance is seen, counted from 1, and which of its triangles; 0 where nothing
-// is.
+// The content of the visibility buffer: the visible instance, counted from 1, and its visible triangle; 0 on the
+// background.
 //
-// TRIANGLE_BITS: both fit into one number, whose lower bits are the triangle's.
+// TRIANGLE_BITS: both fit into one number, and its lower bits are the triangle's.
 
 #ifdef TRIANGLE_BITS
 uint encodeSeen(uvec2 seen) { return (seen.x << TRIANGLE_BITS) | seen.y; }

@@ -1,8 +1,8 @@
-// Shadow maps: all of them in one depth texture, depth reversed (nearer to the light = larger).
+// Shadow maps, all in one depth texture, with depth reversed (nearer to the light = larger).
 
-// Lit part (0 … 1) of what a light would give to a position in normalized view space. The position is moved off its
-// surface by a texel or two, as far as the surface is steep to the light: that keeps a surface from shadowing itself
-// without lifting shadows off.
+// The unshadowed part (0 … 1) of a light at a position in normalized view space. The position is moved off its surface
+// by a texel or two, farther the steeper the surface is to the light: so a surface does not shadow itself, and shadows
+// do not lift off.
 float shadowOf(Light light, vec3 position, vec3 normal, vec3 towardsLight) {
     vec3 fromLight = light.direction.w == 0.0 ? vec3(0) : position - light.position.xyz;
     float texel = light.shadow.x * (light.direction.w == 0.0 ? 1.0 : max(length(fromLight), 1e-6));

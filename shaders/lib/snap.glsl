@@ -1,7 +1,6 @@
 // Vertices on a grid of 1/256 fine pixel, counted over the picture and its guard band.
 //
-// Every part of a picture then sees the same triangles to the bit, and the grid is the rasterizer's own, so that
-// nothing is lost.
+// Every part of a picture then has the same triangles to the bit. The grid is the rasterizer's own, so nothing is lost.
 
 vec4 snapToGrid(vec4 clip) {
     if (clip.w <= 0.0) return clip;  // behind the eye: the clipper will replace it

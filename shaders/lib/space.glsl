@@ -1,13 +1,13 @@
 // Pixels, rays and view space (right-handed, camera at the origin, looking down -z, normalized units).
 //
 // A `pixel` is a texel of the screen textures: a pixel of the region being drawn, counted from its lower left. In
-// passes at half resolution (COARSENESS 2) it stands for every second pixel each way, and sits where that pixel sits,
-// not between four of them.
+// passes at half resolution (COARSENESS 2) it is every second pixel each way, at that pixel's own place, not between
+// four of them.
 #ifndef COARSENESS
 #define COARSENESS 1
 #endif
 
-// What `depth` holds where nothing was hit.
+// The background's value in `depth`.
 const float BACKGROUND_DEPTH = 3.402823466e38;
 
 bool isBackground(float depth) { return depth == BACKGROUND_DEPTH; }
@@ -27,7 +27,7 @@ vec3 viewPosition(ivec2 pixel, float depth) {
 // Unit vector from a view-space position towards the eye.
 vec3 towardsEye(vec3 position) { return ORTHOGRAPHIC ? vec3(0, 0, 1) : normalize(-position); }
 
-// The pixel that a view-space position falls on. Needs position.z < 0 unless orthographic. Rounded where it lies in the
+// The pixel that a view-space position falls on. Needs position.z < 0 unless orthographic. Rounds its place in the
 // whole picture, so that every tile rounds alike.
 ivec2 pixelOf(vec3 position) {
     vec2 ray = ORTHOGRAPHIC ? position.xy : position.xy / -position.z;
@@ -36,7 +36,7 @@ ivec2 pixelOf(vec3 position) {
     return ivec2(floor(COARSENESS == 1 ? at : (at - 0.5) / float(COARSENESS) + 0.5)) - origin;
 }
 
-// The pixel so many pixels off another's centre. The offset is rounded, not the sum, so that every tile rounds alike.
+// The pixel at an offset from another's centre. Rounds the offset, not the sum, so that every tile rounds alike.
 ivec2 pixelFrom(ivec2 pixel, vec2 offset) { return pixel + ivec2(floor(offset + 0.5)); }
 
 // Width of a pixel at a depth, in normalized units.

@@ -1,8 +1,8 @@
 // Does one surface end in front of another?
 //
-// Looks at the heights of two points, seen in neighbouring pixels, over each other's tangent planes. Where a surface
-// bends, even strongly, both lie below the other's plane, or both above; where one ends in front of the other, the
-// nearer lies above and the farther below.
+// Compares the heights of two neighbouring pixels' points over each other's tangent planes. Where a surface bends, even
+// strongly, both lie below the other's plane, or both above. Where one ends in front of the other, the nearer lies
+// above and the farther below.
 
 // `step`: the smallest that counts, in footprints of a pixel.
 bool isStepBetween(vec3 pointA, vec3 normalA, vec3 pointB, vec3 normalB, float footprint, float step) {

@@ -1,17 +1,17 @@
-// Textures of materials, all in one array of layers. Filtered by hand from single texels, so that the result is not the
-// driver's choice.
+// Textures of materials, all in one array of layers. The shader filters single texels itself, so that the result is not
+// the driver's choice.
 
 layout(binding = 15) uniform sampler2DArray atlas;  // sRGB: texels come out linear
 
-// Where a mip level lies: level 0 at the place, level 1 to its right, the others in a column under level 1.
+// The origin of a mip level: level 0 at the place, level 1 to its right, the others in a column under level 1.
 ivec2 levelOrigin(ivec2 size, int level) {
     ivec2 origin = ivec2(level > 0 ? size.x : 0, 0);
     for (int l = 1; l < level; ++l) origin.y += max(size.y >> l, 1);
     return origin;
 }
 
-// Bilinear. Where the material asks for sharp texels, the blend from one to the next is as wide as a pixel: `footprint`
-// is what a pixel covers, in texels.
+// Bilinear. With sharp texels the blend from one to the next is as wide as a pixel: `footprint` is a pixel's size in
+// texels.
 vec4 sampleLevel(Material material, vec2 uv, int level, vec2 footprint) {
     ivec2 size = max(material.place.zw >> level, ivec2(1));
     ivec2 base = material.place.xy + levelOrigin(material.place.zw, level);
@@ -28,7 +28,7 @@ vec4 sampleLevel(Material material, vec2 uv, int level, vec2 footprint) {
     return mix(mix(a, b, f.x), mix(c, d, f.x), f.y);
 }
 
-// Trilinear; uvX and uvY are how uv changes from one pixel to the next.
+// Trilinear; uvX and uvY are uv's changes from one pixel to the next.
 vec4 sampleTexture(Material material, vec2 uv, vec2 uvX, vec2 uvY) {
     vec4 placing = texturePlacing(material);
     uv = uv * placing.xy + placing.zw;

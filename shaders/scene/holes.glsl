@@ -1,5 +1,4 @@
-// Holes that materials cut into triangles: where their texture's alpha is below one half there is nothing. For raster
-// passes.
+// Holes of materials in triangles: there is nothing where the texture's alpha is below one half. For raster passes.
 #include "lib/texture.glsl"
 
 // Is there a hole at this point of a triangle? In view space. Call it for all fragments: it takes derivatives.

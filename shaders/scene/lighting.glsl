@@ -1,4 +1,4 @@
-// Light that reaches a surface: what shading techniques quantize, sum or attenuate. For passes that called
+// Light that reaches a surface; shading techniques quantize, sum or attenuate it. For passes that called
 // readLighting().
 #include "scene/scene.glsl"
 #include "scene/lights.glsl"
@@ -44,7 +44,7 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
         sum.diffuse += lightColor(i) * (strength * max(facing, 0.0));
 #ifdef HIGHLIGHTS
         if (shininess > 1.0 && facing > 0.0) {
-            // Opposite directions leave no half vector; there is no highlight then either.
+            // Opposite directions have no half vector, and then there is no highlight.
             vec3 between = towards + eye;
             float size = length(between);
             float cosine = size > 1e-6 ? max(dot(n, between) / size, 0.0) : 0.0;
@@ -55,7 +55,7 @@ Lighting lightingAt(ivec2 pixel, vec3 position, vec3 n, vec3 eye, float shinines
     return sum;
 }
 
-// Exponent (x) and strength (y) of the highlights of what a pixel shows.
+// Exponent (x) and strength (y) of the highlights on a pixel's surface.
 vec2 highlightsOf(ivec2 pixel) {
 #ifdef SHINY_MATERIALS
     Material material = materialAt(load(materialId, pixel).r - 1u);
@@ -65,7 +65,7 @@ vec2 highlightsOf(ivec2 pixel) {
 #endif
 }
 
-// How open the pixel is, 1 where nothing computes it.
+// The pixel's openness, 1 where nothing computes it.
 float openness(ivec2 pixel, float strength) {
 #ifdef WITH_AO
     return mix(1.0, load(ambientOcclusion, pixel).r, strength);

@@ -12,7 +12,7 @@ struct Light {
 
 layout(std140, binding = 2) uniform Lights { Light lights[LIGHT_COUNT]; };
 
-// What every light has. SUNS_HANDED_ON: the vertex shader has handed it on, see gpu/hand_on_suns.glsl.
+// Data of every light. SUNS_HANDED_ON: the vertex shader has handed it on, see gpu/hand_on_suns.glsl.
 #ifdef SUNS_HANDED_ON
 flat in vec4 sunDirection[LIGHT_COUNT], sunColor[LIGHT_COUNT];
 vec3 lightDirection(int light) { return sunDirection[light].xyz; }

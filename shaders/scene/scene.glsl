@@ -14,7 +14,7 @@ layout(binding = 11) uniform usamplerBuffer triangleUvs;  // per triangle: its t
 // words: line records, numbers of materials and parts, vertex colours; see Instance
 layout(binding = 12) uniform usamplerBuffer words;
 layout(binding = 13) uniform usamplerBuffer instances;  // twelve texels per instance; see below
-layout(binding = 14) uniform samplerBuffer materials;   // five texels per material
+layout(binding = 14) uniform samplerBuffer materials;   // six texels per material
 
 const int INSTANCE_TEXELS = 12;
 const uint NO_WORDS = 0xffffffffu;
@@ -57,7 +57,7 @@ vec3 viewFromMesh(uint number, vec3 point) {
         dot(uintBitsToFloat(texelFetch(instances, at + 1)), p), dot(uintBitsToFloat(texelFetch(instances, at + 2)), p));
 }
 
-// The other way round, in double precision: rows of a 3×4 matrix.
+// Its inverse, in double precision: rows of a 3×4 matrix.
 struct MeshFromView {
     dvec3 rows[3];
     dvec3 offset;
@@ -82,7 +82,7 @@ vec3 viewNormal(MeshFromView m, vec3 normal) {
     return vec3(n / max(max(abs(n.x), abs(n.y)), max(abs(n.z), 1e-300lf)));
 }
 
-// Which uvs the corners of a triangle have: with one index for all attributes, those of its vertices.
+// The uv numbers of a triangle's corners: with one index for all attributes, those of its vertices.
 ivec3 uvCorners(Instance instance, uint triangle) {
 #ifdef UNIFIED
     return int(instance.firstUv) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
@@ -108,10 +108,10 @@ uint triangleLineRecord(Instance instance, uint triangle) {
     return texelFetch(words, int(instance.materialTable + 2u * local + 1u)).r;
 }
 
-// What objects and materials say about their lines: five words each, at the beginning of `words`.
+// Line records of objects and materials: five words each, at the beginning of `words`.
 struct LineRecord {
     vec3 color;                   // linear Rec.709
-    float creaseCosine;           // below -1: as the line technique says
+    float creaseCosine;           // below -1: from the line technique
     bool draws, hasColor, isCut;  // isCut: the cut face of a section
 };
 
@@ -136,8 +136,8 @@ struct Material {
     int layer;        // of the atlas
     bool hasHoles;    // where the texture's alpha is below one half
     bool takesVertexColors;
-    bool isSharp;      // the texture's texels are seen as squares
-    bool repeats;      // the texture, beyond its borders; else these go on
+    bool isSharp;      // the texture's texels are visible as squares
+    bool repeats;      // the texture repeats beyond its borders; else these continue
     uint number;       // of the material
     ivec4 place;       // xy: level 0 in the atlas; zw: its size, in texels
     vec2 hatch;        // across hatching lines, 1 over their distance in pixels long; 0: none
@@ -154,11 +154,10 @@ Material materialAt(uint number) {
         (flags & 8) != 0, number, ivec4(c), d.xy, d.z, e.rgb);
 }
 
-// xy: what texture coordinates are multiplied by; zw: what is added then.
+// xy: factor on texture coordinates; zw: added after that.
 vec4 texturePlacing(Material material) { return texelFetch(materials, int(material.number) * 6 + 5); }
 
-// The material's colour under its hatching, at a place in the picture (pixels): lines as if drawn, a pixel covered as
-// far as it is.
+// The material's colour under its hatching, at a place in the picture (pixels): lines with coverage per pixel.
 vec3 hatched(Material look, vec2 place) {
     float spacings = dot(look.hatch, place), perPixel = length(look.hatch);
     float distance = abs(fract(spacings) - 0.5) / max(perPixel, 1e-9);

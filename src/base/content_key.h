@@ -1,4 +1,4 @@
-// Keys of content: two things of one key are the same, whatever they are called and wherever they come from.
+// Content keys: two things with one content key are the same, whatever their names and origins.
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@
 
 namespace limn {
 
-/// 128 bits of XXH3 over all bytes: no secret, but two different contents of one key will not be met by chance.
+/// 128 bits of XXH3 over all bytes. The hash is no secret, but different contents will not share one by chance.
 struct ContentKey {
     std::uint64_t low = 0, high = 0;
     auto operator<=>(const ContentKey&) const = default;
@@ -21,8 +21,7 @@ struct ContentKey {
     std::string hex() const;
 };
 
-/// Makes a key of what it is given, in order. Texts and lists say how long they are, so that "ab", "c" is not "a",
-/// "bc".
+/// Makes a content key of the values added, in order. Texts and lists add their lengths: "ab", "c" is not "a", "bc".
 class KeyBuilder {
 public:
     KeyBuilder();
@@ -48,7 +47,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The key of some bytes.
+/// The content key of some bytes.
 ContentKey contentKey(std::string_view bytes);
 
 }  // namespace limn

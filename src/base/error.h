@@ -11,7 +11,7 @@
 
 namespace limn {
 
-/// Exit codes follow sysexits(3) where one fits, so that farms can tell apart what to retry and what to report.
+/// Exit codes follow sysexits(3) where one fits: farms can then tell what to retry from what to report.
 enum class ExitCode : int {
     done = 0,
     someFramesFailed = 1,
@@ -64,7 +64,7 @@ struct Errors : std::exception {
 class ErrorCollector {
 public:
     void add(Error error) { errors_.list.push_back(std::move(error)); }
-    /// Runs `work`; what it throws is collected. False where it threw.
+    /// Runs `work` and collects what it throws. False if it threw.
     template <class Work>
     bool run(Work&& work);
     bool empty() const { return errors_.list.empty(); }

@@ -122,7 +122,7 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
     std::error_code unknown;
     if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
 
-    // The name says whose it is, should a kill leave it behind.
+    // The name tells the owner of a file that a kill leaves behind.
     auto temporary = (folder / ".limn-XXXXXX").string();
     Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
     if (fd < 0) throw writeError(path, errno, "creating");

@@ -27,18 +27,18 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether something is there. False too where it cannot be found out: opening it will tell why.
+/// Does the file exist? False too where that cannot be found out: opening it will tell why.
 bool fileExists(const std::filesystem::path& path);
 
-/// What readFile takes: configs, materials and shaders are texts that people write. Meshes are mapped.
+/// The longest file that readFile takes: people write configs, materials and shaders by hand. Meshes are mapped.
 inline constexpr std::size_t kLongestText = std::size_t{64} << 20;
 
 /// Throws Error when the file is missing, a folder, longer than kLongestText, or cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-/// Replaces `path` by `bytes`, or leaves everything as it was. A temporary in the same folder is written with every
-/// short write noticed, synced, read back and compared, then renamed, and the folder synced. Missing folders are made.
-/// Throws Error: 73 cannot create, 74 I/O or disk full, 77 permission.
+/// Replaces `path` by `bytes`, or leaves everything as it was. Writes a temporary in the same folder, notices short
+/// writes, syncs, reads back, compares, renames, and syncs the folder. Makes missing folders. Throws Error: 73 cannot
+/// create, 74 I/O or disk full, 77 permission.
 void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void replaceFile(const std::filesystem::path& path, std::string_view text);
 

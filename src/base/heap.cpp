@@ -24,7 +24,7 @@ void bringInPages(std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
     constexpr std::size_t kBlock = 8 << 20;
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    // Blocks of the heap side by side; freed, they are one again.
+    // These blocks lie side by side in the heap, and merge again when freed.
     std::vector<std::unique_ptr<void, decltype(&std::free)>> blocks;
     for (std::size_t done = 0; done < bytes; done += kBlock) blocks.emplace_back(std::malloc(kBlock), &std::free);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {

@@ -1,5 +1,5 @@
-// Work in two steps: the first on all cores, the second on the calling thread alone, in order, each as soon as its
-// first step is done.
+// Work in two steps. The first runs on all cores. The second runs on the calling thread alone, in order, each as soon
+// as its first step is done.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -12,8 +12,8 @@
 
 namespace limn {
 
-/// make(i) for i in [0, count), in parallel; take(i) in order on the calling thread, which makes some itself while it
-/// would have to wait. What is thrown by either comes out once everything under way has ended.
+/// Runs make(i) for i in [0, count) in parallel, and take(i) in order on the calling thread. That thread makes some
+/// itself instead of waiting. What either throws comes out once everything under way has ended.
 template <class Make, class Take>
 void inOrder(std::size_t count, const Make& make, const Take& take) {
     struct State {
@@ -33,7 +33,7 @@ void inOrder(std::size_t count, const Make& make, const Take& take) {
         return true;
     };
     tbb::task_group helpers;
-    // A group must be empty when it goes, whatever happens here.
+    // A task group must be empty when it is destroyed, whatever happens here.
     struct Ending {
         tbb::task_group& group;
         std::atomic<std::size_t>& next;

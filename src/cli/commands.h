@@ -1,4 +1,4 @@
-// The commands. Each adds itself to the command line and runs when chosen; each returns the exit code.
+// The commands. Each adds itself to the command line, runs when chosen, and returns the exit code.
 #pragma once
 
 #include "job/session.h"

@@ -1,4 +1,4 @@
-// limn doctor: what this machine offers, and why something does not work.
+// limn doctor: the machine's abilities, and why something does not work.
 
 #include "base/install.h"
 #include "cli/commands.h"

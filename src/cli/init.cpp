@@ -14,14 +14,14 @@
 namespace limn::cli {
 namespace {
 
-/// As few digits as place a point to within `precision`, however far from the origin it lies.
+/// The fewest digits that place a point to within `precision`, however far from the origin it lies.
 std::string vectorText(const glm::dvec3& v, double precision) {
     const double steps = std::pow(10.0, std::ceil(-std::log10(precision)));
     const auto digits = [&](double value) { return numberText(std::round(value * steps) / steps + 0.0); };
     return fmt::format("[{}, {}, {}]", digits(v.x), digits(v.y), digits(v.z));
 }
 
-/// As a shell reads it back: quoted where it must be.
+/// Text for a shell, quoted where necessary.
 std::string shellText(const std::string& text) {
     const std::string_view safe = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@%";
     if (!text.empty() && text.find_first_not_of(safe) == std::string::npos) return text;
@@ -99,7 +99,7 @@ ExitCode run(const std::string& model, const std::string& folderText, const Mesh
     const LoadedScene loaded = loadScene(model, options);
     const SceneAt scene = sceneAt(loaded, {.sections = {}});
     const std::string name = std::filesystem::path(model).stem().string();
-    // A model called "scene" leaves that name to the scene.
+    // A config of a model called "scene" must not take the scene's name.
     const auto scenePath = folder / "scene.toml",
                configPath = folder / (name == "scene" ? "picture.toml" : name + ".toml");
     for (const auto& path : {scenePath, configPath})

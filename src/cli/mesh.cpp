@@ -1,4 +1,4 @@
-// limn mesh: what is in a mesh file, and what subdivision would make of it.
+// limn mesh: the content of a mesh file, and its subdivision.
 
 #include "base/log.h"
 #include "base/text.h"

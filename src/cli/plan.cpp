@@ -1,4 +1,5 @@
-// limn plan: what would run, what was culled and why. limn check: validate everything without drawing.
+// limn plan: shows the passes that would run, and why others were culled. limn check: validates everything without
+// drawing.
 
 #include "base/log.h"
 #include "cli/commands.h"
@@ -56,7 +57,7 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
             static_cast<void>(session.plan(config, first));
             ErrorCollector damaged;
             const ImageKeys fromMeshes = loaded.meshes->imageKeys();
-            // What passes is drawn: images that cannot be decoded would end the render.
+            // A config that passes must draw: images that cannot be decoded would end the render.
             for (const auto* images : {&loaded.images, &fromMeshes})
                 for (const auto& [file, key] : *images) damaged.run([&] { static_cast<void>(readImage(file)); });
             damaged.throwIfAny();

@@ -13,7 +13,7 @@
 namespace limn::cli {
 namespace {
 
-/// A budget of threads: what was asked for, else what a farm granted, else what the process may use.
+/// The budget of threads: the number asked for, else the farm's grant, else the process's CPUs.
 int threadBudget(int asked) {
     if (asked > 0) return asked;
     for (const char* variable : {"SLURM_CPUS_ON_NODE", "CUE_THREADS"})
@@ -24,7 +24,7 @@ int threadBudget(int asked) {
     return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
 }
 
-/// Draws with a budget of threads; 0 was not asked for.
+/// Draws with a budget of threads; 0 means none was asked for.
 ExitCode run(RunOptions options, int asked) {
     const int threads = threadBudget(asked);
     std::optional<tbb::global_control> limit;

@@ -1,4 +1,4 @@
-// limn study: what accuracy costs in time.
+// limn study: accuracy against time.
 
 #include "study/study.h"
 #include "base/file.h"
@@ -17,7 +17,7 @@ struct StudyOptions {
     SessionOptions session;
 };
 
-/// Grey where equal; darker where the picture is too dark, lighter where it is too light, four times over.
+/// The error times four: grey where equal, darker where the picture is too dark, lighter where it is too light.
 Image errorPicture(const Image& picture, const Image& truth) {
     Image error = picture;
     for (std::size_t i = 0; i < error.pixels.size(); ++i)

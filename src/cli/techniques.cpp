@@ -1,4 +1,4 @@
-// limn techniques: every slot, technique and parameter, from the tables that the program itself reads.
+// limn techniques: every slot, technique and parameter, from the program's own tables.
 
 #include "base/text.h"
 #include "cli/commands.h"
@@ -12,7 +12,7 @@
 namespace limn::cli {
 namespace {
 
-/// One parameter as people and programs read it.
+/// One parameter, for people and programs.
 struct Row {
     std::string name, type, standard, range, unit, doc;
     bool accuracy, keyable;
@@ -30,7 +30,7 @@ std::vector<Row> rows(Schema schema, const void* defaults) {
     return result;
 }
 
-/// Where a config chooses the technique: what is printed can be written.
+/// The config's key for the technique: the output can be pasted into a config.
 std::string_view keyOf(const Technique& technique) { return findSlot(technique.slot)->key; }
 
 std::string textOf(const Technique& technique) {

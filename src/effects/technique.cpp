@@ -32,7 +32,7 @@ Technique::Technique(std::string_view slot_, std::string_view name_, std::string
 }
 
 const std::vector<const Technique*>& allTechniques() {
-    // The linker's order is no order: sort once, when everybody has registered.
+    // The linker's order is arbitrary: sort once, after all have registered.
     static const bool sorted = [] {
         std::sort(registry().begin(), registry().end(),
             [](const auto* a, const auto* b) { return std::pair(a->slot, a->name) < std::pair(b->slot, b->name); });
@@ -92,7 +92,7 @@ void EffectBuilder::add(Pass pass) {
     pass.technique = technique_;
     if (pass.shader.empty()) pass.shader = fmt::format("effects/{}/{}", slot_, technique_);
     if (pass.rate == kEverySample) pass.rate = rate_;
-    if (pass.rate >= view_.sampling.samples()) pass.rate = kEverySample;  // nothing need last
+    if (pass.rate >= view_.sampling.samples()) pass.rate = kEverySample;  // nothing need be kept
     graph_.passes.push_back(std::move(pass));
 }
 
@@ -158,7 +158,7 @@ void applySettings(TechniqueChoice& choice, std::string_view settings) {
 
 namespace {
 
-/// `mode` and `preset` of a table: settings that belong together, under what the table says itself.
+/// The presets that `mode` and `preset` of a table name. The table's own settings override them.
 void readPresets(const Node& table, std::string_view what, TechniqueChoice& choice, ErrorCollector& errors) {
     const Technique& technique = *choice.technique;
     const auto apply = [&](const Node& node, std::string_view wanted) {

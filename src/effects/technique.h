@@ -1,10 +1,10 @@
-// What an effect is made of, and where it makes itself known.
+// The parts of an effect, and its registration.
 //
 // An effect is two files of one stem: src/effects/<slot>/<name>.cpp and shaders/effects/<slot>/<name>.comp. The .cpp
 // ends with
 //     const Technique kName{"slot", "name", "what it is", kParams, build};
-// and nothing else knows that it exists. Its code lives in a namespace of its own, limn::<slot>_<name>, not in an
-// anonymous one: g++ 12 merges the accessors of members of one name in anonymous structs of one name, across files.
+// and no other file names it. Its code lives in a namespace of its own, limn::<slot>_<name>, not in an anonymous one:
+// g++ 12 merges the accessors of members of one name in anonymous structs of one name, across files.
 #pragma once
 
 #include "effects/slot.h"
@@ -26,13 +26,13 @@ namespace limn {
 struct Technique;
 struct TechniqueChoice;
 
-/// What a picture shows where nothing is.
+/// The picture's colour where no object is.
 struct Background {
     Color color{1, 1, 1};
     bool transparent = false;
 };
 
-/// What an effect builds its passes with.
+/// The interface with which an effect builds its passes.
 class EffectBuilder {
 public:
     EffectBuilder(Graph& graph, const View& view, const SceneFacts& scene)
@@ -41,29 +41,29 @@ public:
     const View& view() const { return view_; }
     const SceneFacts& scene() const { return scene_; }
 
-    /// The image that holds an AOV so far. Missing is a bug of the pipeline or of the order of slots: throws Error
-    /// (internal).
+    /// The image that holds an AOV so far. A missing one is a bug of the pipeline or of the order of slots: throws
+    /// Error (internal).
     ResourceId read(const Aov& aov) const;
     std::optional<ResourceId> find(const Aov& aov) const;
     /// From now on this image is the AOV.
     void publish(const Aov& aov, ResourceId image) { published_[aov.name] = image; }
 
-    /// An image as large as the region drawn, or of every second pixel of it each way (coarseness 2).
+    /// An image as large as the region drawn, or with every second pixel each way (coarseness 2).
     ResourceId image(std::string name, Format format, int coarseness = 1);
     /// An image on the fine raster, for passes that run once per sub-frame.
     ResourceId fineImage(std::string name, Format format);
     bool usesFineRaster() const { return usesFineRaster_; }
     ResourceId image(const Aov& aov) { return image(std::string(aov.name), aov.format); }
 
-    /// Adds a pass; slot, technique and (unless given) shader are filled in.
+    /// Adds a pass, and fills in slot, technique and (unless given) shader.
     void add(Pass pass);
 
-    /// What a config chose, of all slots.
+    /// The config's choices for all slots.
     void setChoices(std::vector<const TechniqueChoice*> choices) { choices_ = std::move(choices); }
-    /// The config's choice of this technique, or null: a technique of two slots asks for its other half.
+    /// The config's choice of this technique, or null. A technique of two slots uses it to find its other half.
     const TechniqueChoice* chosen(const Technique& technique) const;
 
-    /// What lies behind everything.
+    /// The colour behind everything.
     const Background& background() const { return background_; }
     void setBackground(const Background& background) { background_ = background; }
 
@@ -72,16 +72,16 @@ public:
 
     /// Do vertices have one number for all attributes?
     bool isUnified() const;
-    /// Lets the pass's shaders see the holes that materials cut (CUTOUTS), where there are any.
+    /// Gives the pass's shaders the holes of materials (CUTOUTS), if there are any.
     void cutHoles(Pass& pass) const;
     /// Tells the pass's shaders how the visibility buffer names triangles.
     void defineSeen(Pass& pass) const;
 
-    /// What is added from now on belongs to this technique, number `layer` of those that fill its slot.
+    /// Later passes belong to this technique, number `layer` of those in its slot.
     void beginTechnique(const Slot& slot, std::string_view technique, int layer = 0);
-    /// What is added from now on belongs to no slot's technique; `rate`: see picture/sampling.h.
+    /// Later passes belong to no slot's technique; `rate`: see picture/sampling.h.
     void beginPasses(std::string slot, std::string technique, int rate);
-    /// The technique runs in every sample, whatever its slot's rate.
+    /// Later passes of the technique run in every sample, whatever its slot's rate.
     void useEverySample() { rate_ = kEverySample; }
     /// A unique suffix for layered slots ("edges" twice), or "".
     std::string layerSuffix() const { return layer_ > 0 ? "_" + std::to_string(layer_ + 1) : ""; }
@@ -162,14 +162,14 @@ struct TechniqueChoice {
     std::shared_ptr<void> at(double frame) const;
 };
 
-/// A technique as it is when nothing is said but its name. Throws Error (internal) if there is none.
+/// A technique with its default settings. Throws Error (internal) if there is none.
 TechniqueChoice defaultChoice(std::string_view slot, std::string_view name);
 /// Reads a slot's table: `technique`, `mode`, `preset` and the parameters, or the technique's name alone. Problems go
 /// to `errors`; `alsoKnown` are keys that somebody else reads.
 TechniqueChoice readChoice(const Node& table, const Slot& slot, std::string_view what, ErrorCollector& errors,
     std::span<const std::string_view> alsoKnown = {});
 
-/// A setting of a choice changed from TOML text, as tests and studies do. Throws Errors.
+/// Changes settings of a choice from TOML text, for tests and studies. Throws Errors.
 void applySettings(TechniqueChoice& choice, std::string_view settings);
 
 }  // namespace limn

@@ -50,7 +50,7 @@ std::vector<Candidate> listCandidates() {
         for (int i = 0; i < count; ++i) {
             const auto device = devices[static_cast<std::size_t>(i)];
             Candidate candidate;
-            // Inside containers names may be missing altogether: a null is no reason to give up.
+            // Names may be missing inside containers: a null is no reason to give up.
             const std::string extensions = textOr(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "");
             const char* drm = extensions.find("EGL_EXT_device_drm") != std::string::npos
                 ? eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT)
@@ -72,7 +72,7 @@ std::vector<Candidate> listCandidates() {
     return candidates;
 }
 
-/// Makes a context on the candidate current, or says in its report why not.
+/// Makes a context on the candidate current, or reports why that fails.
 EGLContext tryCandidate(Candidate& candidate, bool debug) {
     auto& report = candidate.report;
     const auto fail = [&](std::string why) {
@@ -155,7 +155,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     for (auto& candidate : candidates) {
         const EGLContext context = tryCandidate(candidate, options.debug);
         if (context != EGL_NO_CONTEXT && matches(candidate.report, options.device)) {
-            // A device that only turned out to be software waits until every other one has been tried.
+            // A device that turns out to be software waits until every other one has been tried.
             if (!candidate.report.isSoftware || (acceptsSoftware && &candidate == &candidates.back())) {
                 take(candidate, context);
                 break;
@@ -187,7 +187,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         glDebugMessageCallback(&State::onDebugMessage, state_.get());
     }
-    // Depth 0…1 as written, which is what lets reversed float depth keep its precision.
+    // Depth 0…1 as written: reversed float depth then keeps its precision.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits_.maxTextureSize);
     GLint viewport[2];

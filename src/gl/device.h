@@ -10,7 +10,7 @@ namespace limn::gl {
 /// One EGL device, tried.
 struct DeviceReport {
     int index = 0;
-    std::string name;  ///< what EGL says of it before anything is tried: extension or DRM file
+    std::string name;  ///< EGL's description before the device is tried: extension or DRM file
     std::string vendor, renderer, version;
     bool isSoftware = false;
     bool works = false;
@@ -31,10 +31,11 @@ struct Limits {
     int maxUniformBlock = 0;  ///< bytes
 };
 
-/// The context, current on the thread that made it until it is destroyed. One at a time.
+/// The context. It is current on the thread that made it until it is destroyed. Only one exists at a time.
 class Device {
 public:
-    /// Tries every EGL device, keeps what works, prefers a GPU. Throws Error (noDevice) with every device's reason.
+    /// Tries every EGL device and keeps one that works, a GPU if possible. Throws Error (noDevice) with every device's
+    /// reason.
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;

@@ -47,7 +47,7 @@ static Id makeBuffer(std::size_t size, const void* data, const std::string& name
     GLuint id = 0;
     glCreateBuffers(1, &id);
     label(GL_BUFFER, id, name);
-    // A buffer without bytes cannot be made; one that is bound but never read may as well hold a word.
+    // GL makes no empty buffers. A buffer that is bound but never read may as well hold a word.
     constexpr std::uint32_t nothing = 0;
     const bool isEmpty = size == 0;
     glNamedBufferStorage(id, static_cast<GLsizeiptr>(isEmpty ? sizeof nothing : size), isEmpty ? &nothing : data,

@@ -45,15 +45,15 @@ void releaseVertexArray(Id);
 void releaseProgram(Id);
 void releaseQuery(Id);
 
-/// What is done with an image or a buffer.
+/// How a shader accesses an image or a buffer.
 enum class Access { read, write, readWrite };
 
 class Buffer {
 public:
     Buffer() = default;
-    /// `mappable`: Mapping works on it; GPUs may keep such a buffer where they are slower to read it.
+    /// `mappable`: Mapping works on it; GPUs may keep such a buffer in slower memory.
     Buffer(std::span<const std::byte> data, const std::string& label, bool mappable = false);
-    /// Bytes that nobody has written yet.
+    /// A buffer with undefined content.
     static Buffer withSize(std::size_t size, const std::string& label, bool mappable = false);
     void write(std::span<const std::byte> data, std::size_t offset = 0);
     /// The first bytes of another buffer, moved without leaving the device.
@@ -68,8 +68,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// The bytes of a mappable buffer, to read, while this lives; drawing may read them at the same time. Throws Error
-/// (internal) where that cannot be.
+/// Maps the bytes of a mappable buffer for reading while it lives; drawing may read them at the same time. Throws Error
+/// (internal) where mapping fails.
 class Mapping {
 public:
     explicit Mapping(const Buffer& buffer);
@@ -83,7 +83,7 @@ private:
     const std::byte* bytes_;
 };
 
-/// What one fetch from a buffer brings.
+/// The type of one fetch from a buffer texture.
 enum class Element { uint1, uint3, uint4, float2, float3, float4 };
 
 /// A buffer that shaders fetch from as a buffer texture.
@@ -113,7 +113,7 @@ public:
     std::vector<float> read(int channels, glm::ivec2 origin, glm::ivec2 size) const;
     std::vector<std::uint32_t> readIntegers(int channels, glm::ivec2 origin, glm::ivec2 size) const;
 
-    /// The other way round, of the whole image.
+    /// Writes the whole image, in the same order.
     void write(std::span<const float> values) const;
     void clear() const;  ///< to 0
 
@@ -153,7 +153,7 @@ public:
     VertexArray() = default;
     VertexArray(std::span<const VertexInput> inputs, const Buffer& indices,
         const std::string& label);  ///< `indices` may be empty
-    /// For drawings that make their vertices up.
+    /// For draws whose shaders generate the vertices.
     static VertexArray empty();
     void bind() const;
     explicit operator bool() const { return static_cast<bool>(handle_); }
@@ -171,7 +171,7 @@ struct ShaderStage {
 class Program {
 public:
     Program() = default;
-    /// Throws Error (internal) with the compiler's words.
+    /// Throws Error (internal) with the compiler's message.
     Program(std::span<const ShaderStage> stages, const std::string& label);
     void use() const;
     explicit operator bool() const { return static_cast<bool>(handle_); }
@@ -200,7 +200,7 @@ public:
     DebugGroup& operator=(const DebugGroup&) = delete;
 };
 
-/// Counter-part of glDrawElementsIndirect's record.
+/// The record of glDrawElementsIndirect.
 struct DrawCommand {
     std::uint32_t count, instanceCount, firstIndex;
     std::int32_t baseVertex;
@@ -224,7 +224,7 @@ void drawPoints(int count, int size);                  ///< squares of so many p
 void drawElements(const Buffer& commands, int count);  ///< indirect, 32-bit indices
 void setViewport(glm::ivec2 origin, glm::ivec2 size);
 void setDepthTest(DepthTest test);
-/// Is what is drawn into a framebuffer's colour image added to what stands there, or does it replace it?
+/// Adds draws to a framebuffer's colour image, or replaces its content.
 void setAdding(int colour, bool adds);
 void barrier();
 void flush();  ///< lets the device begin with what it has been given

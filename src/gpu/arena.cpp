@@ -39,7 +39,7 @@ ArenaPiece Arena::put(std::span<const std::byte> bytes) {
         if (rest > 0) free_[piece.first + count] = rest;
     } else {
         if (end_ + count > most_) grow(end_ + count);  // throws
-        // A quarter more than is needed: what grew once will grow again.
+        // A quarter more than needed: a buffer that grew once will grow again.
         if (end_ + count > capacity_ || !buffer_) grow(std::min(end_ + count + (end_ > 0 ? end_ / 4 : 0), most_));
         end_ += count;
     }

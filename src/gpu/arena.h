@@ -1,4 +1,4 @@
-// One buffer for many owners: each has a piece of it that can be put and dropped without touching the others.
+// One buffer for many owners: each puts and drops its own piece without touching the others.
 #pragma once
 
 #include "gl/objects.h"
@@ -20,7 +20,7 @@ public:
     /// `stride`: bytes of an element. `most`: elements that the device takes. `mappable`: see gl::Buffer.
     Arena(std::string label, std::size_t stride, std::uint64_t most, bool mappable = false);
 
-    /// Makes room for so many elements more, so that the buffer is replaced once instead of at every put.
+    /// Makes room for this many more elements, so that the buffer is replaced once and not at every put.
     void reserve(std::uint64_t elements);
     /// A piece with these bytes. Throws Error (outOfMemory) where the device takes no more elements.
     ArenaPiece put(std::span<const std::byte> bytes);
@@ -28,7 +28,7 @@ public:
     void drop(const ArenaPiece& piece);
 
     const gl::Buffer& buffer() const { return buffer_; }
-    /// Changes whenever the buffer is another one.
+    /// Changes whenever the buffer is replaced.
     int generation() const { return generation_; }
 
 private:
@@ -36,10 +36,10 @@ private:
 
     std::string label_;
     std::size_t stride_ = 4;
-    std::uint64_t most_ = 0, capacity_ = 0, end_ = 0;  ///< elements; what lies from end_ on was never used
+    std::uint64_t most_ = 0, capacity_ = 0, end_ = 0;  ///< elements; those from end_ on were never used
     bool mappable_ = false;
     int generation_ = 0;
-    std::map<std::uint32_t, std::uint32_t> free_;  ///< pieces before end_ that nobody has: first and count
+    std::map<std::uint32_t, std::uint32_t> free_;  ///< free pieces before end_: first and count
     gl::Buffer buffer_;
 };
 

@@ -21,7 +21,7 @@ struct Layout {
     std::map<Files, glm::ivec3> corners;
 };
 
-/// Shelves: tallest first, left to right, then the next shelf, then the next layer.
+/// Packs shelves: tallest image first, left to right, then the next shelf, then the next layer.
 Layout layOut(const std::map<Files, MipChain>& chains) {
     Layout layout;
     std::vector<std::pair<Files, const MipChain*>> order;
@@ -54,10 +54,10 @@ Layout layOut(const std::map<Files, MipChain>& chains) {
     return layout;
 }
 
-/// The mip chain of a material's images, made smaller where the device's textures are not large enough for it.
+/// The mip chain of a material's images, shrunk where it does not fit into the device's largest texture.
 MipChain chainOf(const Files& files, int maxTextureSize) {
     Image image = readTexture(files.first, files.second);
-    // A chain is half as wide again as its first level.
+    // A chain is 3/2 as wide as its first level.
     const int width = image.width, height = image.height;
     image = shrunk(std::move(image), maxTextureSize / 3 * 2);
     if (image.width != width)
@@ -71,7 +71,7 @@ MipChain chainOf(const Files& files, int maxTextureSize) {
 
 void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
     if (keys_ == scene.textureKeys) return;
-    keys_.clear();  // should an image fail, the next frame tries again
+    keys_.clear();  // if an image fails, the next frame tries again
     places_.assign(scene.materials.size(), {});
     texture_ = {};
     std::map<Files, MipChain> chains;

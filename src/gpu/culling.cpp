@@ -11,7 +11,7 @@ constexpr float kGridStep = 1.0f / 256;  // vertices are snapped to this, in fin
 constexpr float kRounding =
     1.0f / (1 << 20);  // sixteen half ulps of float: a dozen sums and products, here and on the GPU
 
-/// Four numbers in one register: this runs for every triangle of a scene.
+/// Four numbers in one register, since culling runs for every triangle of a scene.
 using Four = float __attribute__((vector_size(16)));
 
 Four four(float v) { return Four{v, v, v, v}; }
@@ -29,18 +29,17 @@ struct Transform {
     }
 };
 
-/// The box around what lies in a cluster, or around a triangle: x and y in fine pixels of the canvas, z the value in
-/// the depth buffer.
+/// The box around a cluster or a triangle: x and y in fine pixels of the canvas, z as in the depth buffer.
 struct Box {
     Four low, high;
 };
 
-/// Of a cluster.
+/// The bounds of a cluster.
 struct ClusterBounds {
     Box box;
-    float room = 0;             // how far a vertex may be from where it is computed to be, in fine pixels
-    float depthRoom = 0;        // the same of its depth: as a share of it, or orthographic as a difference
-    bool isEverywhere = false;  // it reaches behind the eye, or lies too near to it for floats
+    float room = 0;             // error bound of a vertex's computed place, in fine pixels
+    float depthRoom = 0;        // the same for its depth: relative, or absolute where orthographic
+    bool isEverywhere = false;  // the cluster reaches behind the eye, or lies too near to it for floats
 };
 
 ClusterBounds boundsOf(
@@ -58,10 +57,10 @@ ClusterBounds boundsOf(
         result.box = corner == 0 ? Box{at, at} : Box{least(result.box.low, at), most(result.box.high, at)};
     }
     const glm::vec4 terms = mesh.terms * glm::vec4(glm::abs(cluster.centre) + cluster.half, 1);
-    const float ofW = terms.w / leastW[3];  // by how much of its rounding w, which all is divided by, is off
+    const float ofW = terms.w / leastW[3];  // relative error of w, the divisor of all, in roundings
     result.room = kGridStep + kRounding * (std::max(terms.x, terms.y) / leastW[3]) * ofW;
     result.depthRoom =
-        view.orthographic ? 1e-5f + kRounding * terms.z : 1e-4f + kRounding * ofW;  // besides what interpolation rounds
+        view.orthographic ? 1e-5f + kRounding * terms.z : 1e-4f + kRounding * ofW;  // constants cover interpolation
     result.isEverywhere = !(leastW[3] > 1e-4f * terms.w) || !(result.room < 1e4f);
     return result;
 }
@@ -73,7 +72,7 @@ bool isOutside(const CullView& view, const ClusterBounds& bounds) {
             || box.low[0] - bounds.room > view.regionHigh.x || box.low[1] - bounds.room > view.regionHigh.y);
 }
 
-/// Does everything that has been drawn in a box lie nearer?
+/// Is everything drawn so far within the box nearer?
 bool isHidden(const CullView& view, const Box& box, const ClusterBounds& bounds, const FarthestDepths& farthest) {
     const float nearest = view.orthographic ? box.high[2] + bounds.depthRoom : box.high[2] * (1 + bounds.depthRoom),
                 room = bounds.room;
@@ -93,16 +92,16 @@ bool isHidden(const CullView& view, const Box& box, const ClusterBounds& bounds,
     return true;
 }
 
-/// May a triangle cover the middle of a pixel? Its corners, each right to `room`, and the box around it.
+/// May a triangle cover the middle of a pixel? `at`: its corners, each right to `room`. `box`: the box around it.
 bool mayCoverMiddle(const std::array<Four, 3>& at, const Box& box, float room) {
-    // Pixels' middles in the box. Truncation rounds down what is positive; what lies farther out than 65536 may as well
+    // Finds the pixels' middles in the box. Truncation rounds positive numbers down. Places beyond 65536 may as well
     // lie there.
     static constexpr double kFar = 65536;
     const auto down = [](float v) { return static_cast<int>(std::clamp(static_cast<double>(v), -kFar, kFar) + kFar); };
     const int left = down(box.low[0] - room + 0.5f), right = down(box.high[0] + room - 0.5f),
               bottom = down(box.low[1] - room + 0.5f), top = down(box.high[1] + room - 0.5f);
     if (left > right || bottom > top) return false;
-    if (right - left > 1 || top - bottom > 1) return true;  // large ones are seldom worth a closer look
+    if (right - left > 1 || top - bottom > 1) return true;  // large triangles are seldom worth a closer look
     const Four a = at[1] - at[0], b = at[2] - at[0];
     const float side = a[0] * b[1] - a[1] * b[0] < 0 ? -1.0f : 1.0f;
     for (int row = bottom; row <= top; ++row)
@@ -121,8 +120,8 @@ bool mayCoverMiddle(const std::array<Four, 3>& at, const Box& box, float room) {
     return false;
 }
 
-/// Appends the triangles of a cluster that are to be drawn: without `farthest` of those that face the camera, else of
-/// the others. Returns whether there are others.
+/// Appends the triangles of a cluster that are to be drawn: those that face the camera, or with `farthest` the others.
+/// Returns whether there are triangles of the other kind.
 bool chooseOf(const CullView& view, const PlacedMesh& mesh, const Transform& pixelFromMesh, const Cluster& cluster,
     const ClusterBounds& bounds, const TriangleSource& source, const FarthestDepths* farthest,
     std::vector<std::uint32_t>& chosen) {
@@ -131,7 +130,7 @@ bool chooseOf(const CullView& view, const PlacedMesh& mesh, const Transform& pix
     bool others = false;
     for (std::uint32_t t = 0; t < cluster.triangleCount; ++t, corners += 3) {
         const glm::vec3 &p0 = positions[corners[0]], &p1 = positions[corners[1]], &p2 = positions[corners[2]];
-        // Which side is seen decides when a triangle is drawn, not whether.
+        // The visible side decides when a triangle is drawn, not whether.
         const bool faces = glm::dot(glm::cross(p1 - p0, p2 - p0), view.orthographic ? mesh.eye : mesh.eye - p0) >= 0;
         if (faces == (farthest != nullptr)) {
             others = true;
@@ -152,7 +151,7 @@ bool chooseOf(const CullView& view, const PlacedMesh& mesh, const Transform& pix
 }  // namespace
 
 std::vector<SeenPart> partsOf(const CullView& view) {
-    constexpr std::size_t kClusters = 64;  // some thousand triangles to a part
+    constexpr std::size_t kClusters = 64;  // some thousand triangles in a part
     std::vector<SeenPart> parts;
     for (std::size_t i = 0; i < view.instances.size(); ++i)
         for (std::size_t first = 0; first < view.instances[i].clusters.size(); first += kClusters)

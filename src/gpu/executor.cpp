@@ -39,11 +39,11 @@ void Executor::allocate(const Plan& plan) {
         const auto& wanted = plan.textures[i];
         auto& texture = textures_[i];
         if (texture && texture.format() == wanted.format && texture.size() == wanted.size) continue;
-        texture = {};  // gives the old one back before anything new is made
+        texture = {};  // frees the old texture before any new one is made
         missing.push_back(i);
         bytes += wanted.bytes();
     }
-    // llvmpipe takes images from the C heap. The extra third is for triangles and for what is read back.
+    // llvmpipe takes images from the C heap. The extra third is for triangles and for images that are read back.
     if (device_.report().isSoftware) bringInPages(bytes + bytes / 3);
     for (const std::size_t i : missing)
         textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
@@ -61,7 +61,7 @@ void Executor::run(
     std::vector<gl::Timestamp> stamps;
     const auto stamp = [&] {
         if (!measure) return;
-        gl::finish();  // a pass's time is its own, not that of what is still under way
+        gl::finish();  // a pass's time must not include earlier work
         stamps.emplace_back();
     };
     if (measure && !timerIsWarm_) {
@@ -164,7 +164,7 @@ void Executor::runHost(
         std::chrono::duration<double, std::milli>((worked - begin) + (std::chrono::steady_clock::now() - done)).count();
 }
 
-/// The middles of the tiles that a mask names, as points; counted in tiles.
+/// The middles of the tiles in a mask, as points; counted in tiles.
 static std::vector<float> maskedTiles(const gl::Texture& mask) {
     const auto values = mask.read(1);
     std::vector<float> tiles;
@@ -195,7 +195,7 @@ void Executor::runScreen(
         for (const auto* image : colours) image->clear();
         const auto& mask = texture(plan, pass.reads[static_cast<std::size_t>(pass.mask)].resource);
         const auto tiles = maskedTiles(mask);
-        // Whole tiles, so that none has its middle outside.
+        // Whole tiles, so that no tile's middle lies outside.
         gl::setViewport({0, 0}, mask.size() * kMaskTile);
         linked.setInt("tilesX", mask.size().x);
         linked.setInt("tilesY", mask.size().y);
@@ -215,8 +215,7 @@ void Executor::runScreen(
     gl::barrier();
 }
 
-/// Draws the scene as the picture's camera sees it, without what it cannot see: first what faces it, then what that
-/// does not hide.
+/// Draws what the picture's camera sees: first the triangles that face it, then the others that those do not hide.
 void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl::Framebuffer& framebuffer,
     const gl::Program& linked, const gl::Texture* depth) {
     const auto draw = [&](auto&& what) {
@@ -224,7 +223,7 @@ void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl:
         linked.use();
         gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
         gl::setViewport({0, 0}, view.canvas.size * raster);
-        // Of a canvas larger than the region only that part is of interest.
+        // Only the region matters, even if the canvas is larger.
         const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
         what();
     };
@@ -292,7 +291,7 @@ void Executor::runRaster(const Graph& graph, const Plan& plan, const PlannedPass
     if (depth) framebuffer.clearDepth(0);
     gl::setDepthTest(depth ? gl::DepthTest::greater : gl::DepthTest::none);
     if (pass.rasterViews.empty()) {
-        // The fine raster, or the picture's own.
+        // The images are on the fine raster or on the picture's own.
         const gl::Texture* any = colours.empty() ? depth : colours.front();
         assert(any);
         drawSeen(view, scene, any->size().x / view.canvas.size.x, framebuffer, linked, depth);

@@ -1,10 +1,10 @@
 // Runs a Plan: makes its textures and programs, binds what each pass declared, times it if asked.
 //
-// Compute passes are written once and can run two ways, to the same bits: as compute shaders on a GPU, whose compute
-// units outnumber its raster pipeline by far; and as one large triangle on a software renderer, where storing a pixel
-// from a fragment shader costs a third (measured on llvmpipe: 4.6 ns against 15 ns for RGBA32F). Software renderers
-// also set triangles up on one core, one after the other: of large scenes they are given only those that can be seen
-// (gpu/culling.h).
+// Compute passes are written once and can run in two ways, to the same bits. On a GPU they are compute shaders, since
+// its compute units outnumber its raster pipeline by far. On a software renderer they are one large triangle, since
+// storing a pixel from a fragment shader costs a third (measured on llvmpipe: 4.6 ns against 15 ns for RGBA32F).
+// Software renderers also set triangles up on one core, one after the other: in large scenes they get only the visible
+// ones (gpu/culling.h).
 #pragma once
 
 #include "gl/device.h"
@@ -37,7 +37,7 @@ public:
 
     /// GPU milliseconds per planned pass, summed over the runs that measured.
     const std::vector<double>& milliseconds() const { return milliseconds_; }
-    /// How much of that was moving images between GPU and host passes.
+    /// The part of these for moving images between GPU and host passes.
     double transferMilliseconds() const { return transferMilliseconds_; }
     void resetMeasurements() { milliseconds_.clear(), transferMilliseconds_ = 0; }
 

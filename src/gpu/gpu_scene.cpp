@@ -41,7 +41,7 @@ struct GpuInstance {
 };
 static_assert(sizeof(GpuInstance) == 12 * 16);
 
-// Five texels.
+// Six texels.
 struct GpuMaterial {
     float color[3], levels;
     float shininess, specular, layer, flags;
@@ -57,7 +57,7 @@ constexpr int kHasHoles = 1, kTakesVertexColors = 2, kIsSharp = 4, kRepeats = 8;
 
 constexpr std::uint32_t kNoWords = ~0u;
 
-// Scenes with fewer triangles are always drawn whole: even software renderers take but some milliseconds.
+// Scenes with fewer triangles are always drawn whole: even software renderers take only milliseconds.
 constexpr std::size_t kManyTriangles = 1 << 16;
 
 template <class T>
@@ -65,8 +65,8 @@ std::span<const std::byte> bytesOf(const std::vector<T>& values) {
     return std::as_bytes(std::span(values));
 }
 
-/// Vertex colours as shaders/scene/scene.glsl reads them: ten display-encoded bits each; of each corner of each
-/// triangle, or of each vertex where those are unified.
+/// Vertex colours as shaders/scene/scene.glsl reads them: ten display-encoded bits per channel, one colour per triangle
+/// corner, or per vertex where vertices are unified.
 std::vector<std::uint32_t> packColors(const TriMesh& mesh) {
     std::vector<std::uint32_t> packed(mesh.colors.size()), corners;
     tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t i) {
@@ -81,8 +81,8 @@ std::vector<std::uint32_t> packColors(const TriMesh& mesh) {
     return corners;
 }
 
-/// A scale of 0 flattens a mesh, which is a fair thing to ask for but leaves no way back from the view: a billionth of
-/// the size does both.
+/// A scale of 0 flattens a mesh. That is allowed, but leaves no inverse transform: take a billionth of the size
+/// instead.
 glm::dmat3 invertible(glm::dmat3 m) {
     const double size = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
     if (size == 0) return glm::dmat3(std::numeric_limits<float>::min());
@@ -97,7 +97,7 @@ glm::dmat3 invertible(glm::dmat3 m) {
     return m;
 }
 
-/// Where an instance's mesh is, seen from its pivot: normalized view space from mesh units.
+/// The place of an instance's mesh: from mesh units around its pivot to normalized view space.
 struct Placement {
     glm::dmat3 linear;
     glm::dvec3 pivot;
@@ -108,7 +108,7 @@ Placement placementOf(const DrawInstance& instance, const glm::dvec3& pivot, con
         view.toView(glm::dvec3(instance.worldFromMesh * glm::dvec4(pivot, 1)))};
 }
 
-/// Numbers of three attributes per triangle, or zeros where a mesh has none: they lie beside its triangles.
+/// Three attribute numbers per triangle, or zeros where a mesh has none: they lie parallel to its triangles.
 std::vector<std::uint32_t> besideTriangles(const std::vector<std::uint32_t>& indices, const TriMesh& mesh) {
     return indices.size() == mesh.indices.size() ? indices : std::vector<std::uint32_t>(mesh.indices.size());
 }
@@ -130,7 +130,7 @@ GpuMaterial packMaterial(const Material& m, const AtlasPlace& place) {
     return gpu;
 }
 
-/// Writes what has changed of a small buffer; makes it anew where its size has. Is it another buffer now?
+/// Writes a small buffer if its data changed, and replaces it if its size changed. Returns whether it was replaced.
 bool putChanged(gl::Buffer& buffer, std::vector<std::byte>& known, std::span<const std::byte> data, const char* label) {
     if (buffer && std::equal(known.begin(), known.end(), data.begin(), data.end())) return false;
     const bool isNew = !buffer || buffer.size() != data.size();
@@ -179,7 +179,7 @@ void GpuScene::putMesh(const ContentKey& key, const TriMesh& mesh) {
     resident.triangles = triangles_.put(bytesOf(mesh.indices));
     if (has(needs_, SceneData::normals)) resident.normals = normals_.put(bytesOf(mesh.normals));
     if (has(needs_, SceneData::uvs)) resident.uvs = uvs_.put(bytesOf(mesh.uvs));
-    // These two lie beside the triangles: shaders find them by the same number.
+    // These two lie parallel to the triangles: shaders find them by the same number.
     const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
     if (hasOwnIndices && has(needs_, SceneData::normals))
         resident.triangleNormals = triangleNormals_.put(bytesOf(besideTriangles(mesh.normalIndices, mesh)));
@@ -224,7 +224,7 @@ void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<Cont
         normals += mesh.normals.size();
         uvs += mesh.uvs.size();
     }
-    if (residents_.empty()) {  // the first time, exactly as much as is needed
+    if (residents_.empty()) {  // the first time reserves exactly the size needed
         const bool hasOwnIndices = !has(needs_, SceneData::unifiedVertices);
         positions_.reserve(vertices);
         triangles_.reserve(triangles);
@@ -242,7 +242,7 @@ void GpuScene::putMeshes(std::span<const ContentKey> meshOf, const std::map<Cont
     isCullable_ = isSoftware_ && drawn >= kManyTriangles;
     if (!isCullable_) return;
     for (const auto& [key, mesh] : missing) residents_.at(key).clusters = makeClusters(*mesh);
-    // A scene that has become large by what was added: what was there before is drawn whole until it changes.
+    // Additions may make a scene large. Meshes from before have no clusters, so it is drawn whole until they change.
     for (const Resident* resident : shown_)
         isCullable_ = isCullable_ && (!resident->clusters.empty() || resident->place.triangleCount == 0);
 }
@@ -438,8 +438,8 @@ void GpuScene::drawSeen(const FarthestDepths* farthest) {
     const TriangleSource source{
         reinterpret_cast<const glm::vec3*>(positions.bytes()), reinterpret_cast<const std::uint32_t*>(indices.bytes())};
     if (!farthest) parts_ = partsOf(cullView_);
-    // Some at a time, so that the renderer's threads draw them while this one sets up the next and others choose those
-    // after that.
+    // Draws some at a time: the renderer's threads draw them while this thread sets up the next and others choose
+    // further ones.
     constexpr std::size_t kCorners = 3 * 20'000;
     std::vector<std::uint32_t> corners;
     std::vector<gl::DrawCommand> commands;

@@ -1,4 +1,4 @@
-// The scene as the GPU sees it: only the data that the plan reads is uploaded, and only what has changed.
+// The scene on the GPU: uploads only data that the plan reads, and only what has changed.
 #pragma once
 
 #include "gl/device.h"
@@ -18,29 +18,29 @@ namespace limn {
 
 class GpuScene {
 public:
-    /// `isSoftware`: of scenes with many triangles, only what can be seen need be drawn.
+    /// `isSoftware`: large scenes may be culled to their visible triangles.
     GpuScene(const gl::Limits& limits, bool isSoftware);
 
-    /// Declares what will be read of the scenes to come, and how many line records they have. A change drops everything
-    /// that is held.
+    /// Declares the data to be read of the next scenes, and the number of their line records. A change drops all that
+    /// is held.
     void require(SceneData needs, std::size_t lineRecords);
     bool holds(const ContentKey& mesh) const { return residents_.contains(mesh); }
 
-    /// Brings what differs from the last scene. `meshOf`: the key of each instance's mesh; those that are not held must
-    /// be in `made`, which may be released afterwards. Reads the textures' files when the plan needs them. Throws Error
-    /// where the device cannot take the scene.
+    /// Uploads the differences from the last scene. `meshOf`: the content key of each instance's mesh. Meshes that are
+    /// not held must be in `made`, which may be released afterwards. Reads the textures' files when the plan needs
+    /// them. Throws Error where the device cannot take the scene.
     void update(const SceneAt& scene, std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
 
-    /// Recomputes what depends on the camera: instance transforms in double precision, lights.
+    /// Recomputes the data that depends on the camera: instance transforms in double precision, lights.
     void setView(const SceneAt& scene, const View& view);
 
     void bind() const;
     void draw() const;  ///< every instance, in scene order
 
-    /// Can parts be drawn?
+    /// Can drawSeen() cull the scene?
     bool isCullable() const { return isCullable_; }
-    /// What can be seen in the last view's region: triangles that face the camera, or after that, with `farthest`,
-    /// those that do not (gpu/culling.h).
+    /// Draws the visible triangles in the last view's region: those that face the camera, or then, with `farthest`, the
+    /// others (gpu/culling.h).
     void drawSeen(const FarthestDepths* farthest);
 
 private:
@@ -60,27 +60,27 @@ private:
     void putMesh(const ContentKey& key, const TriMesh& mesh);
     void dropMesh(const Resident& resident);
     void putMeshes(std::span<const ContentKey> meshOf, const std::map<ContentKey, TriMesh>& made);
-    /// What objects and materials say of their lines, and which materials each instance shows.
+    /// Uploads the line records, and the materials of each instance.
     void putTables(const SceneAt& scene);
     void putMaterials(const SceneAt& scene);
     void putCommands();
-    /// Lets shaders and vertex pipelines see buffers that are new.
+    /// Connects new buffers to shaders and vertex pipelines.
     void connect();
     void placeMeshes(const SceneAt& scene, const View& view);
     std::vector<std::byte> instanceBytes(const SceneAt& scene, const View& view) const;
 
     gl::Limits limits_;
     bool isSoftware_, isCullable_ = false;
-    bool isReady_ = false;  ///< the last update went through: what is held is whole
+    bool isReady_ = false;  ///< the last update succeeded: the held data is whole
     SceneData needs_ = SceneData::none;
     std::map<ContentKey, Resident> residents_;
     std::vector<const Resident*> shown_;  ///< of each instance
     Arena positions_, triangles_, normals_, triangleNormals_, uvs_, triangleUvs_, words_;
     ArenaPiece records_, tables_;                ///< of words_: line records at its begin, material tables
-    std::vector<std::uint32_t> tableWords_;      ///< what stands in both
-    std::size_t recordWords_ = 0;                ///< of these, how many are line records
+    std::vector<std::uint32_t> tableWords_;      ///< the content of both
+    std::size_t recordWords_ = 0;                ///< the number of words that are line records
     std::vector<std::uint32_t> materialTables_;  ///< of each instance: where its table begins
-    std::vector<int> generations_;               ///< of the arenas that the views below show
+    std::vector<int> generations_;               ///< of the arenas behind the views below
     gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_;
     std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,

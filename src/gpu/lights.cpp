@@ -29,7 +29,7 @@ glm::dmat4 lightPerspective(double fov, double near) {
     return m;
 }
 
-/// A view along `forward`, with any up.
+/// A view along `forward`, with an arbitrary up.
 glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& forward) {
     const glm::dvec3 up = std::abs(forward.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
     return glm::lookAt(position, position + forward, up);
@@ -80,7 +80,7 @@ std::vector<std::byte> lightBytes(const SceneAt& scene, const View& view) {
             light.range > 0 ? static_cast<float>(1 / (light.range * view.unit)) : 0.0f);
         gpu.color = glm::vec4(light.color.r, light.color.g, light.color.b, 0) * static_cast<float>(light.intensity);
         const double half = glm::radians(light.angle) / 2;
-        // A hard edge is a very narrow one: smoothstep needs its ends apart.
+        // A hard edge is a very narrow one, since smoothstep needs two different ends.
         gpu.cone = {std::cos(half), std::max(std::cos(half * (1 - light.blend)), std::cos(half) + 1e-6), 0, 0};
         if (light.shadow.present) {
             const double texelAtUnit = light.kind == LightKind::sun

@@ -7,25 +7,24 @@ namespace {
 
 using Kind = gl::ShaderStage::Kind;
 
-constexpr int kMostInputs = 24;  // vectors of four that are handed on to a fragment shader; with those of three suns
-                                 // fewer than the 32 of Mesa's software renderers
+constexpr int kMostInputs = 24;  // vectors of four handed on to a fragment shader; with those of three suns fewer than
+                                 // the 32 of Mesa's software renderers
 
 FormatInfo formatOf(const Graph& graph, ResourceId id) {
     return info(graph.resources[static_cast<std::size_t>(id.index)].format);
 }
 
-/// What all stages begin with.
+/// The beginning of all stages.
 std::string head(const Pass& pass, const View& view) {
     std::string text = "#version 450 core\n";
     for (const auto& [name, value] : pass.defines) text += fmt::format("#define {} {}\n", name, value);
     text += fmt::format("const int MASK_TILE = {};\n", kMaskTile);
-    // Known when shaders are compiled: software renderers would compute both kinds of everything.
+    // A constant, since software renderers would compute both kinds of everything.
     return text + fmt::format("const bool ORTHOGRAPHIC = {};   // parallel rays\n", view.orthographic);
 }
 
 /// The images that a pass reads, each by load(name, pixel). Software renderers load from images a quarter faster than
-/// they fetch from textures, whose levels they look up for every pixel; what cannot be an image (depth) is a texture
-/// everywhere.
+/// from textures, whose levels they look up for every pixel. Depth cannot be an image, and is a texture everywhere.
 std::string inputs(const Graph& graph, const Pass& pass, bool asImages) {
     std::string text = asImages ? "#define load(image, pixel) imageLoad(image, pixel)\n"
                                 : "#define load(image, pixel) texelFetch(image, pixel, 0)\n";
@@ -49,7 +48,7 @@ std::string namesOfOutputs(const PlannedPass& planned, const Pass& pass) {
     return text;
 }
 
-/// The images that a pass makes, but for depth: an output of a raster pass, else a function write_name().
+/// The images that a pass makes, except depth: an output of a raster pass, else a function write_name().
 std::string outputs(const Graph& graph, const PlannedPass& planned, const Pass& pass, ComputeAs computeAs) {
     constexpr std::string_view floats[] = {"", "float", "vec2", "vec3", "vec4"},
                                integers[] = {"", "uint", "uvec2", "uvec3", "uvec4"};
@@ -82,7 +81,7 @@ std::string outputs(const Graph& graph, const PlannedPass& planned, const Pass& 
     return text;
 }
 
-/// How many lights a pass reads, if they are few, and suns without shadows; else 0.
+/// The number of lights that a pass reads, if all are suns without shadows, and few; else 0.
 int plainSuns(const Pass& pass) {
     int count = 0;
     for (const auto& [name, value] : pass.defines) {
@@ -92,8 +91,8 @@ int plainSuns(const Pass& pass) {
     return count <= 3 ? count : 0;
 }
 
-/// Hands on to a fragment shader what it uses of the view, the parameters and the lights: what the vertex shader needs
-/// for that, with a function handOn(), and the declarations for the fragment shader.
+/// Hands a fragment shader the view, parameters and lights that it uses. Gives the vertex shader's part, with a
+/// function handOn(), and the fragment shader's declarations.
 HandedOn handAllOn(const Pass& pass, const UniformBlock& view, std::string_view source, const ShaderLibrary& library) {
     HandedOn all = handOn(view, source);
     const HandedOn params = handOn(pass.params, source);
@@ -123,7 +122,7 @@ std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& pl
     const std::string begin = head(pass, view), blocks = viewConstants.glsl() + pass.params.glsl(),
                       names = namesOfOutputs(planned, pass);
     const std::string images = inputs(graph, pass, isDrawn) + outputs(graph, planned, pass, computeAs);
-    if (isRaster)  // the vertex stage needs to know what is written, so that it hands on nothing else
+    if (isRaster)  // the vertex stage hands on only what the written images need
         return {{Kind::vertex, begin + blocks + names + library.load(pass.shader + ".vert")},
             {Kind::fragment, begin + blocks + names + images + library.load(pass.shader + ".frag")}};
 
@@ -139,9 +138,9 @@ std::vector<gl::ShaderStage> shadersOf(const Graph& graph, const PlannedPass& pl
         return {{Kind::compute,
             begin + blocks + place + names + fmt::format("#define IS_MASKED(pixel) {}\n", mask) + images + source}};
     }
-    // Drawn only where the mask says: the shader need not look.
+    // Only tiles of the mask are drawn: the shader need not test it.
     const std::string place = "ivec2 thisPixel() { return ivec2(gl_FragCoord.xy); }\n#define IS_MASKED(pixel) false\n";
-    if (hasMask)  // to hand constants on for each tile would be more work than it saves
+    if (hasMask)  // handing constants on for each tile costs more than it saves
         return {{Kind::vertex, "#version 450 core\n" + library.load("gpu/tiles.vert")},
             {Kind::fragment, begin + blocks + place + names + images + source}};
     const HandedOn constants =

@@ -25,7 +25,7 @@ std::string ShaderLibrary::load(const std::string& path) const {
     std::set<std::string> seen;
     std::string out;
     expand(path, seen, out);
-    if (folder_.empty()) loaded_.emplace(path, out);  // those of a folder may change
+    if (folder_.empty()) loaded_.emplace(path, out);  // sources of a folder may change
     return out;
 }
 
@@ -33,7 +33,7 @@ void ShaderLibrary::expand(const std::string& path, std::set<std::string>& seen,
     if (!seen.insert(path).second) return;
     std::istringstream lines(source(path));
     std::string line;
-    // GLSL numbers its sources; the numbers are given in the order of inclusion.
+    // GLSL numbers its sources, here in the order of inclusion.
     const auto number = seen.size() - 1;
     int count = 0;
     out += fmt::format("#line 1 {}\n", number);

@@ -1,4 +1,4 @@
-// GLSL sources: built into the program, or read from a folder while working on them.
+// GLSL sources: built into the program, or read from a folder during development.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,8 @@ public:
     explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
     bool contains(const std::string& path) const;
-    /// The source with `#include "lib/x.glsl"` lines replaced by the file, each once. From one thread. Throws Error.
+    /// The source, with `#include "lib/x.glsl"` lines replaced by their files, each file once. Call from one thread.
+    /// Throws Error.
     std::string load(const std::string& path) const;
 
 private:
@@ -23,7 +24,7 @@ private:
     void expand(const std::string& path, std::set<std::string>& seen, std::string& out) const;
 
     std::filesystem::path folder_;
-    mutable std::map<std::string, std::string> loaded_;  ///< what load() gave, of sources that cannot change
+    mutable std::map<std::string, std::string> loaded_;  ///< results of load(), for sources that cannot change
 };
 
 /// Made by CMake from shaders/.

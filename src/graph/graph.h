@@ -1,7 +1,7 @@
 // What could be drawn (Graph) and what will be (Plan). Pure data and pure functions: no GL here.
 //
-// A pass declares what it reads and writes; it runs if, and only if, something that was asked for needs what it writes.
-// The same holds for each single thing it writes: a texture that nobody reads is neither made nor attached.
+// A pass declares its reads and writes. It runs if, and only if, a wanted image needs its writes. The same holds for
+// each single write: a texture that nobody reads is neither made nor attached.
 #pragma once
 
 #include "picture/format.h"
@@ -57,25 +57,25 @@ constexpr bool has(SceneData set, SceneData one) {
 struct Read {
     std::string name;  ///< of the sampler in the shader
     ResourceId resource;
-    int halo = 0;        ///< how many pixels around its own the pass wants to read
-    bool whole = false;  ///< it may read farther, as far as there is anything: all of the image must be made
+    int halo = 0;        ///< pixels around its own that the pass wants to read
+    bool whole = false;  ///< it may read any pixel: all of the image must be made
 };
 
 struct Write {
     std::string name;  ///< of the image or output in the shader
     ResourceId resource;
     SceneData needs = SceneData::none;  ///< scene data read only to write this
-    glm::vec4 clear{0};                 ///< raster passes: what stands where nothing is drawn
-    bool sums = false;                  ///< compute passes: the image is the sum of what all samples of a frame write
+    glm::vec4 clear{0};                 ///< raster passes: the value where nothing is drawn
+    bool sums = false;                  ///< compute passes: the image sums the writes of all samples of a frame
 };
 
-/// Where in a raster pass's images the scene is drawn, and which of several times this is.
+/// One of several drawings of the scene into a raster pass's images, and its place there.
 struct RasterView {
     glm::ivec4 viewport{0};  ///< origin and size
     int number = 0;          ///< the shader's uniform `rasterView`
 };
 
-/// What host passes see of the scene. The graph hands it on without knowing it: rays/ray_scene.h is one.
+/// The scene for host passes. The graph hands it on without knowing its type: rays/ray_scene.h is one.
 struct HostScene {
     virtual ~HostScene() = default;
 };
@@ -87,15 +87,15 @@ struct HostImage {
     std::vector<float> values;
 };
 
-/// What a host pass works on. Images of `writes` that nobody reads are empty.
+/// The input and output of a host pass. Images of `writes` that nobody reads are empty.
 struct HostWork {
     const View* view = nullptr;        ///< the sample's
     const HostScene* scene = nullptr;  ///< where the pass needs SceneData::rays: a RayScene
     std::vector<HostImage> reads, writes;
-    PixelRect part;  ///< of the images: only this is asked for
+    PixelRect part;  ///< of the images: only this is wanted
 };
 
-/// Side of the squares of pixels by which passes are masked: what software renderers draw at once.
+/// Side, in pixels, of the squares by which passes are masked: software renderers draw one square at once.
 inline constexpr int kMaskTile = 4;
 
 struct Pass {
@@ -105,10 +105,10 @@ struct Pass {
     std::string name;
     std::string slot, technique;
     Kind kind = Kind::compute;
-    /// In how many of a frame's samples it runs (picture/sampling.h). What it makes is kept until it runs again, where
-    /// something reads it that runs in between.
+    /// The number of a frame's samples in which it runs (picture/sampling.h). Its images are kept until it runs again,
+    /// where a pass reads them that runs in between.
     int rate = kEverySample;
-    /// What it makes depends on the canvas that it is drawn into, in the last bits: its tiles are whole canvases.
+    /// The last bits of its images depend on the canvas: its tiles are whole canvases.
     bool isTiedToCanvas = false;
     std::string shader;  ///< path below shaders/ without extension
     std::vector<std::pair<std::string, std::string>> defines;
@@ -118,8 +118,8 @@ struct Pass {
     SceneData needs = SceneData::none;
     std::function<void(HostWork&)> work;  ///< host passes
     std::vector<RasterView> rasterViews;  ///< raster passes; empty: the scene once, as the picture's camera sees it
-    /// Compute passes may be run only where a mask says: index into reads of an R8 image, one texel per kMaskTile ×
-    /// kMaskTile pixels. Where it is 0 the pass's images are 0. -1: everywhere.
+    /// A mask may restrict a compute pass: index into reads of an R8 image, one texel per kMaskTile × kMaskTile pixels.
+    /// Where the mask is 0, the pass's images are 0. -1: no mask.
     int mask = -1;
     std::string note;  ///< for people: "8 taps per pixel"
 };
@@ -136,7 +136,7 @@ struct Graph {
     }
 };
 
-/// A wanted result and what to call it.
+/// A wanted result and its name.
 struct Wanted {
     std::string name;
     ResourceId resource;
@@ -147,9 +147,9 @@ struct PlannedPass {
     int pass = 0;              ///< index into Graph::passes
     std::vector<bool> writes;  ///< of each Pass::writes: is it made?
     std::string reason;        ///< who asked for it
-    int halo = 0;        ///< pixels around the picture that it must make for later passes to be right up to the border
-    bool whole = false;  ///< everything that is drawn around the picture, since a later pass looks as far as it can
-    bool runs = true;    ///< in the run that the plan is for; see narrow()
+    int halo = 0;  ///< pixels that it must make around the picture, so that later passes are right up to the border
+    bool whole = false;  ///< it must make the whole image, since a later pass may read any pixel
+    bool runs = true;    ///< in the plan's run; see narrow()
 };
 
 struct CulledPass {
@@ -176,7 +176,7 @@ struct Plan {
     std::vector<int> textureOf;  ///< resource index → index into textures, or −1 when it is not made
     SceneData sceneData = SceneData::none;
 
-    /// The widest halo of all passes: how much wider than the picture the scene must be drawn.
+    /// The widest halo of all passes: the scene must be drawn that much wider than the picture.
     int halo() const;
     std::uint64_t textureBytes() const;
     bool makes(ResourceId resource) const {
@@ -184,12 +184,12 @@ struct Plan {
     }
 };
 
-/// Culls, orders, and lays resources out in as few textures as their lifetimes allow. Throws Errors (internal) naming
-/// *every* resource that is read but not written, written twice, or part of a cycle.
+/// Culls and orders passes, and lays resources out in as few textures as their lifetimes allow. Throws Errors
+/// (internal) naming *every* resource that is read but not written, written twice, or part of a cycle.
 Plan compile(const Graph& graph, std::span<const Wanted> wanted);
 
-/// The plan of one run, in which only some passes are due: what is made for every sample is made only as far as these,
-/// and `wanted`, need it. Passes and textures keep their places.
+/// The plan of one run, in which only some passes are due. Per-sample passes make only what the due passes and `wanted`
+/// read. Passes and textures keep their places.
 Plan narrow(
     const Graph& graph, Plan plan, std::span<const Wanted> wanted, const std::function<bool(const Pass&)>& isDue);
 

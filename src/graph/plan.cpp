@@ -7,8 +7,8 @@
 namespace limn {
 namespace {
 
-/// Walks from the wanted images back and adds halos up. Passes of every sample shrink to what this run reads; passes
-/// with a rate keep their extent.
+/// Walks back from the wanted images and adds halos up. Per-sample passes shrink to what this run reads; passes with a
+/// rate keep their extent.
 void spreadDemand(const Graph& graph, Plan& plan, std::span<const Wanted> wanted) {
     struct Demand {
         bool isRead = false, whole = false;
@@ -101,7 +101,7 @@ private:
     }
 
     void collectPasses() {
-        // Passes are declared after what they read, so that the order of declaration is an order of execution.
+        // Passes are declared after the passes they read, so that the order of declaration is an order of execution.
         for (std::size_t p = 0; p < graph_.passes.size(); ++p) {
             const Pass& pass = graph_.passes[p];
             if (state_[p] != State::done) {
@@ -128,7 +128,7 @@ private:
     void layOutTextures() {
         constexpr int kForever = 1 << 30;
         std::vector<int> lastUse(graph_.resources.size(), -1);
-        // An image outlives a run if a reader may run in a sample in which its writer does not.
+        // An image outlives a run if a reader may run in a sample without its writer.
         const auto makesFor = [](int writer, int reader) { return writer == reader || writer == kEverySample; };
         std::vector<int> rateOf(graph_.resources.size(), kEverySample);
         std::vector<bool> mustLast(graph_.resources.size(), false);

@@ -25,7 +25,7 @@ void FrameWriter::add(const RenderedFrame& band) {
     for (std::size_t i = 0; i < band.layers.size(); ++i) {
         const Layer& layer = band.layers[i];
         const bool isMain = layer.name == "beauty";
-        // Numbers that 8 bits would ruin stay numbers.
+        // Data that 8 bits would ruin stays exact.
         const bool exact =
             !isMain && ((!layer.isColour && layer.image.channels != 1) || layer.isInteger || layer.name == "depth");
         // An opaque picture needs no alpha channel.

@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// Writes a frame that comes band by band. Nothing is on disk before finish().
+/// Writes a frame band by band. Nothing is on disk before finish().
 class FrameWriter {
 public:
     FrameWriter(std::filesystem::path path, const EncodeOptions& options, int height);

@@ -1,4 +1,4 @@
-// Which frames a run draws.
+// The frames that a run draws.
 #pragma once
 
 #include "render/config.h"
@@ -11,7 +11,7 @@ namespace limn {
 /// "12", "1-100", "1-100x2", "1,5,9-12", "10-1", "-5--1". Throws Error (usage).
 std::vector<int> parseFrames(const std::string& text);
 
-/// The frames that were asked for; else the config's range, else the scene's, else frame 1.
+/// The requested frames; else the config's range, else the scene's, else frame 1.
 std::vector<int> framesOf(
     const RenderConfig& config, const std::string& asked, const std::optional<FrameRange>& declared);
 

@@ -60,7 +60,7 @@ std::filesystem::path outputPath(const RenderConfig& config, const std::string& 
     return text;
 }
 
-/// A config with everything that is known about it before drawing.
+/// A config and all that is known about it before drawing.
 struct Job {
     RenderConfig config;
     std::filesystem::path output;
@@ -83,7 +83,7 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
     return job;
 }
 
-/// Everything that the configs alone can tell comes out before anything is drawn.
+/// Reads all configs, and reports every problem in them before anything is drawn.
 std::vector<Job> readJobs(const RunOptions& options) {
     ErrorCollector errors;
     std::vector<Job> jobs;
@@ -103,7 +103,7 @@ public:
 
     ExitCode draw() {
         const std::vector<Job> jobs = readJobs(options_);
-        // The first scene loads while the device starts, and is tessellated as far as it gets.
+        // The first scene loads while the device starts, and its meshes are made as far as time allows.
         std::optional<int> first;
         if (!options_.frames.empty()) first = parseFrames(options_.frames).front();
         session_.makeAhead(jobs.front().config, first);
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    /// Runs `work`; with --keep-going what it throws is told of and counted.
+    /// Runs `work`; with --keep-going it reports and counts what that throws.
     void attempt(const auto& work) {
         if (!options_.keepGoing) return work();
         std::vector<Error> errors;
@@ -158,7 +158,7 @@ private:
     void drawFrame(const Job& job, int frame) {
         const auto frameStart = done_ == 0 ? start_ : Clock::now();
         const auto path = framePath(job.output, frame);
-        // What memory should not hold twice is encoded while it is drawn.
+        // Encodes while drawing, so that memory does not hold the picture twice.
         FrameWriter writer(
             path, job.config.output.encode, job.crop.size.x > 0 ? job.crop.size.y : job.config.image.size.y);
         RenderOptions wanted;

@@ -48,7 +48,7 @@ const LoadedScene& Session::load(const RenderConfig& config) {
         for (const auto& file : files) {
             if (stamps.contains(file)) continue;
             const Stamp stamp = stampOf(file);
-            // What was written while it may have been read counts as changed.
+            // A file that was written while it may have been read counts as changed.
             const bool isSure = stamp && stamp->second < begun_.at(nameOf(config));
             stamps.emplace(file, isSure ? stamp : std::nullopt);
         }

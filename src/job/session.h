@@ -1,4 +1,4 @@
-// Scenes and a device, kept from one picture to the next: what render, plan and study are made with.
+// Scenes and a device, kept from one picture to the next, for render, plan and study.
 #pragma once
 
 #include "render/renderer.h"
@@ -21,27 +21,27 @@ struct SessionOptions {
     std::filesystem::path shaderFolder;  ///< empty: the shaders built in
 };
 
-/// Belongs to the thread that made it; loading goes on beside it.
+/// Belongs to the thread that made it; loading runs on other threads.
 class Session {
 public:
     explicit Session(SessionOptions options = {});
 
-    /// Begins to load the scene of a config, beside what goes on here.
+    /// Begins to load the scene of a config in the background.
     void loadAhead(const RenderConfig& config);
-    /// The same, and goes on to make the meshes of a frame (nullopt: the first declared one) for the next draw().
+    /// The same, and then makes the meshes of a frame (nullopt: the first declared one) for the next draw().
     void makeAhead(const RenderConfig& config, std::optional<int> frame);
-    /// The scene of a config; loads it unless that has been done. Throws what loading throws.
+    /// The scene of a config; loads it if necessary. Throws what loading throws.
     const LoadedScene& load(const RenderConfig& config);
-    /// Forgets the scene of a config, and with it what it takes in memory.
+    /// Forgets the scene of a config and frees its memory.
     void forget(const RenderConfig& config);
-    /// Of all files that the loaded scenes and their meshes came from, those that are not any more what they were.
+    /// The files of loaded scenes and their meshes that have changed since.
     std::vector<std::filesystem::path> changedFiles() const;
 
     RenderedFrame draw(const RenderConfig& config, int frame, const RenderOptions& options = {});
-    /// Without a device, unless one has been started.
+    /// Plans without a device, unless one has been started.
     PlanReport plan(const RenderConfig& config, int frame);
 
-    /// Starts the device, unless that has been done.
+    /// Starts the device if necessary.
     Renderer& renderer();
 
 private:

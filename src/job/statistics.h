@@ -1,4 +1,4 @@
-// What a run tells of itself in numbers: the file of --stats.
+// The numbers of a run: the file of --stats.
 #pragma once
 
 #include "render/renderer.h"
@@ -10,7 +10,7 @@ namespace limn {
 
 class Statistics {
 public:
-    /// Milliseconds; `parts` in the order in which they were done.
+    /// Milliseconds; `parts` are in order of execution.
     void addFrame(const std::filesystem::path& file, int frame, const std::vector<PartTime>& parts, double total);
     /// JSON: {"version", "frames": [{"file", "frame", "parts": {NAME: ms}, "total": ms}]}.
     std::string json() const;

@@ -1,4 +1,4 @@
-// What objects and materials say about their own lines, as shaders look it up by number.
+// Line records: the overrides of objects and materials for their own lines, which shaders look up by number.
 #pragma once
 
 #include "settings/values.h"
@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// What an object and its material say about its lines; what they leave out is as the line technique says.
+/// The settings of an object and its material for its lines. The line technique decides what they leave out.
 struct LineRecord {
     bool draws = true;
     OptionalColor color;
@@ -18,7 +18,7 @@ struct LineRecord {
     bool operator==(const LineRecord&) const = default;
 };
 
-/// A crossing of lines has eight bits for the number of a record (shaders/lib/lines.glsl).
+/// A crossing of a line has eight bits for a record's number (shaders/lib/lines.glsl).
 inline constexpr std::size_t kMostLineRecords = 256;
 
 /// Colour, cosine of the crease angle (-2: not said), flags: what lineRecordAt() of shaders/scene/scene.glsl reads.

@@ -1,5 +1,5 @@
-// Why there is a line: one row for each source. Parameters of techniques, the numbers that shaders know sources by, the
-// images that are compared, and the styles that strokes are drawn in all come from these rows.
+// The sources of lines, that is, the reasons for a line: one row each. These rows give the parameters of techniques,
+// the numbers of sources in shaders, the images that are compared, and the styles of strokes.
 #pragma once
 
 #include "picture/aov.h"
@@ -13,12 +13,12 @@ namespace limn {
 struct LineSource {
     std::string_view name;       ///< of the parameter that weighs its lines
     std::string_view colorName;  ///< of the parameter that colours them
-    std::string_view define;     ///< its number in shaders; WITH_ before it says that such lines are looked for
-    float weight;                ///< of its lines, if nobody says: in widths
+    std::string_view define;     ///< its number in shaders; WITH_ before it means that such lines are looked for
+    float weight;                ///< default of its lines, in widths
     std::string_view doc, colorDoc;
-    std::string_view sampler;       ///< how shaders call the image that is compared, beyond depth and face
+    std::string_view sampler;       ///< shaders' name of the image that is compared, beyond depth and face
     const Aov* compares = nullptr;  ///< that image; null: depth and face are enough
-    bool onlyOfSections = false;    ///< there is none where nothing is cut open
+    bool onlyOfSections = false;    ///< only scenes that are cut open have it
 };
 
 /// Where several reasons hold, sections count before silhouettes, then objects, materials and creases

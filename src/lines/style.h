@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// Which side of the surface that it bounds a line lies on.
+/// The side of a surface's border on which its line lies.
 enum class LineSide { both, inner, outer };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<LineSide> = {"both", "inner", "outer"};
@@ -23,7 +23,7 @@ struct Stroke {
     PerSource<LineStyle> styles{};
     float opacity = 1;
     LineSide side = LineSide::both;
-    double fade = 0, taper = 0;       ///< of opacity and width, lost with depth
+    double fade = 0, taper = 0;       ///< shares of opacity and width lost with depth
     double fadeFrom = 0, fadeTo = 1;  ///< normalized units: where they begin to, and have
 
     double widest() const;

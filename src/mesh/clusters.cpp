@@ -17,7 +17,7 @@ std::vector<Cluster> makeClusters(const TriMesh& mesh) {
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-        // Rounded up, so that the box holds what it is around.
+        // Rounded up, so that the box holds its triangles.
         clusters[i] = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0.5f * (low + high),
             0.5f * (high - low) + 1e-6f * glm::max(glm::abs(low), glm::abs(high))};
     });

@@ -59,7 +59,7 @@ public:
             const int a = root(faces.FindIndex(sides[0])), b = root(faces.FindIndex(sides[1]));
             group_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
         }
-        // One sharp edge that ends here is a dart: smooth. So is a rim that nothing sharp runs into.
+        // A single sharp edge ends here as a dart, which is smooth. A rim that no sharp edge runs into is smooth too.
         smooth = smooth && sharpEdges <= (level_.IsVertexBoundary(vertex) ? 0 : 1);
         if (smooth && !limit_.empty()
             && glm::dot(limit_[static_cast<std::size_t>(vertex)], limit_[static_cast<std::size_t>(vertex)]) > 0) {
@@ -67,7 +67,7 @@ public:
             for (int i = 0; i < faces.size(); ++i) use(faces[i], corners[i], normals.size() - 1);
             return;
         }
-        // A dart's edge must not part its two sides.
+        // Both sides of a dart's edge share one normal.
         for (int i = 0; i < faces.size(); ++i) {
             if (!smooth && root(i) != i) continue;
             if (smooth && i != 0) break;
@@ -91,8 +91,8 @@ private:
     std::vector<int> group_;
 };
 
-/// UVs of a level from those of a deeper one: each corner of a face is a corner of one of the face's children, again
-/// and again.
+/// Takes the UVs of a level from a deeper one: each corner of a face is a corner of one of its children, level by
+/// level.
 void takeDeepUvs(const Far::TopologyRefiner& refiner, int level, int depth, const std::vector<Value<2>>& deep,
     std::vector<Value<2>>& uvs) {
     const auto& first = refiner.GetLevel(level);
@@ -220,8 +220,8 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(
 PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options, bool wantNormals) {
     const bool withUvs = !cage.cornerUv.empty();
     const auto refiner = makeRefiner(cage, options, withUvs);
-    // Semi-sharp creases reach their limit only below as many levels as they are sharp, and where an infinitely sharp
-    // one ends in a dart every level comes nearer: refine on, and take the points of this level there.
+    // A semi-sharp crease reaches its limit only as many levels down as it is sharp. Where an infinitely sharp one ends
+    // in a dart, every level comes nearer. So refine deeper, and take the points of this level there.
     const bool toLimit = options.limit && options.scheme != SubdivisionScheme::bilinear;
     int depth = options.level;
     if (toLimit)
@@ -261,8 +261,8 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
     std::vector<glm::dvec3> limitNormals;
     if (toLimit) {
         std::vector<Value<3>> limit(points.size()), du(points.size()), dv(points.size());
-        // Tangents at non-manifold vertices: OpenSubdiv 3.5 writes past the end of its masks. The normals of the faces
-        // around do instead.
+        // OpenSubdiv 3.5 writes past the end of its masks for tangents at non-manifold vertices. The normals of the
+        // faces around serve instead.
         const Far::TopologyLevel& base = refiner->GetLevel(0);
         bool manifold = true;
         for (int v = 0; v < base.GetNumVertices() && manifold; ++v) manifold = !base.IsVertexNonManifold(v);
@@ -280,7 +280,7 @@ PolyMesh refineUniformly(const PolyMesh& cage, const SubdivisionOptions& options
         }
     }
     if (toLimit && withUvs) {
-        // Face-varying limits know no creases, but are computed on the last level only.
+        // Face-varying limits ignore creases, but exist on the last level only.
         std::vector<Value<2>> deep = uvs;
         for (int l = options.level + 1; l <= depth; ++l) {
             std::vector<Value<2>> finer(static_cast<std::size_t>(refiner->GetLevel(l).GetNumFVarValues(0)));

@@ -21,16 +21,16 @@ struct Value {
 
 }  // namespace far
 
-/// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without have the value
-/// after the last). Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left out.
-/// Throws Error (internal) if OpenSubdiv refuses.
+/// The cage's topology with its creases, corners, holes and, if asked, UVs as channel 0 (corners without one have the
+/// value after the last). Every index is in range already: OpenSubdiv does not check. Creases on missing edges are left
+/// out. Throws Error (internal) if OpenSubdiv refuses.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(
     const PolyMesh& cage, const SubdivisionOptions& options, bool withUvs);
 
 /// Levels until the last semi-sharp crease or corner has gone smooth.
 int levelsOfCreases(const SubdivisionTags& tags);
 
-/// The mesh's uvs, and one more for corners without.
+/// The mesh's uvs, and one more for corners without one.
 std::vector<glm::dvec2> uvValues(const PolyMesh& mesh);
 
 }  // namespace limn

@@ -1,4 +1,4 @@
-// What OpenMesh's half-edges say about a mesh. Kept apart, since its headers are large.
+// Facts about a mesh from OpenMesh's half-edges. Kept apart: OpenMesh's headers are large.
 #pragma once
 
 #include "mesh/poly_mesh.h"

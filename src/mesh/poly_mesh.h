@@ -51,7 +51,7 @@ struct PolyMesh {
     std::vector<std::uint32_t> faceMaterial;   ///< index into materialNames
     std::vector<std::uint32_t> facePart;       ///< index into partNames: the OBJ's objects and groups
     std::vector<std::uint32_t> faceSmoothing;  ///< smoothing group; 0 = flat
-    bool hasSmoothing = false;                 ///< the file speaks of smoothing at all; else smooth by angle
+    bool hasSmoothing = false;                 ///< the file mentions smoothing; else smooth by angle
 
     SubdivisionTags tags;
 

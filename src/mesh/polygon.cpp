@@ -11,14 +11,14 @@ struct Tessellation {
     std::vector<std::uint32_t> indices;
     bool failed = false;
     std::vector<glm::dvec3>* points =
-        nullptr;  ///< where crossings add theirs; null: the heaviest of the four vertices stands in for one
+        nullptr;  ///< crossings append their points here; null: the heaviest of the four vertices stands in
 };
 
-// Corners travel through GLU as pointers, counted from 1: null means "none" to it.
+// GLU carries corners as pointers, counted from 1: null means "none" to it.
 std::uint32_t toIndex(void* data) { return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data)) - 1; }
 
 void onVertex(void* vertex, void* user) { static_cast<Tessellation*>(user)->indices.push_back(toIndex(vertex)); }
-void onEdgeFlag(GLboolean, void*) {}  // being told of edges is what makes GLU give plain triangles
+void onEdgeFlag(GLboolean, void*) {}  // its registration makes GLU give plain triangles
 void onError(GLenum, void* user) { static_cast<Tessellation*>(user)->failed = true; }
 void onCombine(GLdouble* place, void* vertices[4], GLfloat weights[4], void** out, void* user) {
     if (auto* points = static_cast<Tessellation*>(user)->points) {

@@ -93,7 +93,7 @@ private:
     void split(const std::array<Corner, 3>& corners, const std::array<double, 3>& h, std::uint32_t material,
         std::uint32_t part) {
         std::vector<Corner> kept;
-        std::array<Corner, 2> ends{};  // where the outline enters what is kept, and leaves it
+        std::array<Corner, 2> ends{};  // where the outline enters and leaves the kept part
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             if (h[k] <= 0) kept.push_back(corners[k]);
@@ -113,8 +113,8 @@ private:
     }
 
     void fill() {
-        // Outlines are walked from point to point; where several leave a point any will do, winding decides what is
-        // inside.
+        // Walks outlines from point to point. Where several lines leave a point, any of them will do: winding decides
+        // what is inside.
         std::vector<glm::dvec3> points;
         std::unordered_map<glm::vec3, std::uint32_t, PointHash> number;
         const auto numberOf = [&](const glm::vec3& p) {
@@ -124,7 +124,7 @@ private:
         };
         std::multimap<std::uint32_t, std::uint32_t> onward;
         for (const auto& [from, to] : outline_) onward.emplace(numberOf(from), numberOf(to));
-        // Lines that do not close begin where more leaves than comes; those first, from their ends.
+        // Open lines begin at points that more edges leave than reach: walk those first.
         std::vector<int> surplus(points.size());
         for (const auto& [from, to] : onward) {
             ++surplus[from];
@@ -157,7 +157,7 @@ private:
         if (triangles.empty()) return;
         const auto firstPoint = static_cast<std::uint32_t>(out_.positions.size());
         out_.positions.insert(out_.positions.end(), points.begin(), points.end());
-        // Attributes: one for all where they have lists of their own, else beside the positions.
+        // An attribute with its own indices gets one value for all cut faces; else one beside each position.
         const auto firstNormal = static_cast<std::uint32_t>(out_.normals.size()),
                    firstUv = static_cast<std::uint32_t>(out_.uvs.size());
         if (needs_.normals)

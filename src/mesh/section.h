@@ -1,4 +1,4 @@
-// Meshes cut open by planes: what lies beyond is taken away, and solids show filled faces where they were cut.
+// Meshes cut open by planes: the part beyond is removed, and solids get filled cut faces.
 #pragma once
 
 #include "mesh/tri_mesh.h"
@@ -15,7 +15,7 @@ struct CutPlane {
     double height(const glm::vec3& p) const { return glm::dot(gradient, glm::dvec3(p)) + offset; }
 };
 
-/// Does the plane take anything of the mesh away?
+/// Does the plane cut any of the mesh away?
 bool isCut(const TriMesh& mesh, const CutPlane& plane);
 
 struct CutMesh {
@@ -24,8 +24,8 @@ struct CutMesh {
         0;  ///< pieces of outline that do not close: surfaces without thickness, which have no cut face
 };
 
-/// Cuts. New vertices on an edge are the same from both of its sides, to the bit. Cut faces are filled where the
-/// outlines wind around them at all, so that solids standing in one another are filled once.
+/// Cuts a mesh. Both faces on an edge get the same new vertices, to the bit. Cut faces are filled by nonzero winding,
+/// so that solids inside one another are filled once.
 CutMesh cutMesh(const TriMesh& mesh, const CutPlane& plane, const MeshNeeds& needs);
 
 /// Triangles that fill outlines in a plane with the given normal: nonzero winding. Crossing outlines add points.

@@ -23,8 +23,8 @@ struct Ways {
     SubdivisionReport report;
 };
 
-/// Loop takes triangles only. And a face that meets itself, such as one with a hole that a doubled edge joins to the
-/// rim, leaves OpenSubdiv with vertices that have more faces than edges, which it reads past the end of.
+/// Loop takes triangles only. A face may also meet itself, such as one with a hole that a doubled edge joins to the
+/// rim. Its vertices then have more faces than edges, and OpenSubdiv reads past their end.
 bool mustBeCut(const PolyMesh& mesh, std::size_t face, const SubdivisionOptions& options) {
     const auto first = mesh.cornerPosition.begin() + mesh.faceStart[face],
                last = mesh.cornerPosition.begin() + mesh.faceStart[face + 1];
@@ -94,7 +94,7 @@ Ways chooseWays(const PolyMesh& cage, const SubdivisionOptions& options) {
     return ways;
 }
 
-/// The faces that go a way, with everything they refer to.
+/// The faces of one way, with everything they refer to.
 PolyMesh part(const PolyMesh& cage, const std::vector<Way>& ways, Way way) {
     std::vector<char> keep(ways.size());
     std::transform(ways.begin(), ways.end(), keep.begin(), [&](Way w) { return w == way; });
@@ -128,7 +128,7 @@ void append(TriMesh& to, const TriMesh& from) {
     joinWords(to.trianglePart, from.trianglePart);
 }
 
-/// Cuts faces that OpenSubdiv cannot take as it would cut them to draw them.
+/// Triangulates faces that OpenSubdiv cannot take, as drawing would.
 PolyMesh cutIntoTriangles(const PolyMesh& mesh, const std::vector<char>& cut) {
     PolyMesh out = mesh;
     out.faceStart = {0};
@@ -220,7 +220,7 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     const bool mixed = goes(Way::safe) + goes(Way::bfr) + goes(Way::plain) > 1;
     TriMesh out;
     out.pivot = pivot;
-    // The layout for vertex pipelines is made in one place, from polygons: those subdivide uniformly.
+    // The layout for vertex pipelines comes from polygons alone, so its faces are refined uniformly.
     if (goes(Way::bfr) && !needs.unified)
         out = tessellate(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs, pivot, true);
     const auto addPolygons = [&](const PolyMesh& mesh) {
@@ -228,7 +228,7 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     };
     if (goes(Way::bfr) && needs.unified)
         addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs.normals));
-    // Far's patches, evaluated like Bfr's: they take any rates, and unlike uniform refinement know the limit of a
+    // Far's patches are evaluated like Bfr's. They take any rates and, unlike uniform refinement, know the limit of a
     // vertex with two faces.
     const bool patches = options.limit && !options.safe && (!options.chaikin || options.edgeRate)
         && options.scheme != SubdivisionScheme::bilinear && !needs.unified;

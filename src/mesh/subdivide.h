@@ -1,7 +1,7 @@
 // Subdivision surfaces through OpenSubdiv: the limit surface as triangles, or the refined polygons.
 //
-// Three ways. Bfr evaluates the limit surface face by face, in parallel, with a rate of its own for each edge; each
-// vertex and edge point is evaluated once, by the first face on it, and shared, so that there are no cracks. Far's
+// There are three ways. Bfr evaluates the limit surface face by face, in parallel, with a rate of its own for each
+// edge. The first face on a vertex or edge evaluates its points, and the others share them: there are no cracks. Far's
 // adaptive patches do the same for connected components that have an interior vertex of two faces, where Bfr 3.5 writes
 // out of bounds. Far's uniform refinement serves plain refinement and Chaikin creases (where Bfr cracks by 5e-4 of the
 // diagonal), and is the tests' oracle.
@@ -20,22 +20,21 @@ enum class UvRule { none, cornersOnly, cornersPlus1, cornersPlus2, boundaries, a
 
 struct SubdivisionOptions {
     SubdivisionScheme scheme = SubdivisionScheme::catmullClark;
-    int level = 2;      ///< halvings of every edge; with edgeRate the most
+    int level = 2;      ///< halvings of every edge; with edgeRate their maximum
     bool limit = true;  ///< onto the limit surface; else the points of plain refinement
     BoundaryRule boundary = BoundaryRule::edgeAndCorner;  ///< of the rims of open meshes
     UvRule uv = UvRule::boundaries;                       ///< where texture coordinates stay linear
     bool chaikin = false;
     bool smoothTriangles = false;
     bool safe = false;  ///< uniform refinement for everything: the slower way, and an independent oracle
-    /// Segments that an edge of the cage is cut into, from its ends; empty: 2^level for every edge. Called from many
-    /// threads.
+    /// Segments of a cage edge, given its ends; empty: 2^level for every edge. Called from many threads.
     std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRate;
 };
 
 /// Sharpness from which a crease or corner is infinitely sharp.
 inline constexpr float kInfiniteSharpness = 10;
 
-/// What a file's own tags say, over the given options.
+/// The given options, overridden by a file's own tags.
 SubdivisionOptions withTags(SubdivisionOptions options, const SubdivisionTags& tags);
 
 struct SubdivisionReport {
@@ -44,7 +43,7 @@ struct SubdivisionReport {
     std::size_t safeComponents = 0;  ///< took uniform refinement
     std::size_t safeFaces = 0;
     std::string safeReason;          ///< of those; "" when none
-    std::size_t plainFaces = 0;      ///< beyond what OpenSubdiv takes at all; drawn as they are
+    std::size_t plainFaces = 0;      ///< that OpenSubdiv cannot take at all; drawn as they are
     std::size_t missingCreases = 0;  ///< on edges that do not exist; ignored
     std::size_t splitFaces = 0;      ///< cut into triangles: n-gons for Loop, and faces that meet themselves
 };

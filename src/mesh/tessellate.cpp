@@ -48,8 +48,8 @@ Pattern makePattern(const Bfr::Parameterization& parameterization, const std::ve
     return pattern;
 }
 
-/// A place well inside the face, or inside the part of it that uv lies in: n-gons are parametrized by one quarter
-/// square per corner.
+/// A place well inside the face, or inside the part that holds uv: an n-gon's parameters are one quarter square per
+/// corner.
 glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
     switch (p.GetType()) {
         case Bfr::Parameterization::TRI: return {1.0 / 3, 1.0 / 3};
@@ -110,7 +110,7 @@ private:
         });
     }
 
-    /// Where each side has a normal of its own.
+    /// Marks edges and vertices where each face has its own normal.
     void findSharpPlaces() {
         const bool all = options_.scheme == SubdivisionScheme::bilinear;
         sharpEdge_.resize(static_cast<std::size_t>(base_.GetNumEdges()));
@@ -121,7 +121,8 @@ private:
         for (int v = 0; v < base_.GetNumVertices(); ++v) {
             int edges = 0;
             for (const auto e : base_.GetVertexEdges(v)) edges += sharpEdge_[static_cast<std::size_t>(e)];
-            // One sharp edge that ends here is a dart: smooth. So is a rim that nothing sharp runs into.
+            // A single sharp edge ends here as a dart, which is smooth. A rim that no sharp edge runs into is smooth
+            // too.
             sharpVertex_[static_cast<std::size_t>(v)] = all || base_.IsVertexNonManifold(v)
                 || Sdc::Crease::IsInfinite(base_.GetVertexSharpness(v)) || edges > (base_.IsVertexBoundary(v) ? 0 : 1);
         }
@@ -156,7 +157,7 @@ private:
     const Pattern& patternOf(const Factory& factory, int face, std::map<std::vector<int>, Pattern>& known) const {
         const std::vector<int> rates = ratesOf(face);
         std::vector<int> key = rates;
-        key.push_back(base_.GetFaceVertices(face).size());  // quads and pentagons have six rates both
+        key.push_back(base_.GetFaceVertices(face).size());  // quads and pentagons both have six rates
         const auto found = known.find(key);
         if (found != known.end()) return found->second;
         if (known.size() > 2000) known.clear();  // rates fitted to a view repeat little
@@ -335,7 +336,7 @@ private:
         }
     }
 
-    /// Far's patches know the quarters of irregular faces by their corner.
+    /// Far's patches number the quarters of irregular faces by corner.
     static std::pair<int, glm::dvec2> partOf(const Scratch& s, const glm::dvec2& uv) {
         if (!s.parameterization.HasSubFaces()) return {0, uv};
         glm::dvec2 within;
@@ -385,7 +386,7 @@ private:
         return n;
     }
 
-    /// What is still without a normal takes the mean of its triangles'; triangles without area go.
+    /// Gives missing normals the mean of their triangles', and drops triangles without area.
     void mendNormals() {
         const std::size_t count = out_.triangleCount();
         const auto position = [&](std::size_t i) { return glm::dvec3(out_.positions[out_.indices[i]]); };

@@ -1,8 +1,8 @@
 // How the faces of a mesh hang together.
 //
-// Edges and orientation are found on sorted arrays, fast enough to ask of every mesh. Boundary loops and feature edges
-// go through OpenMesh, whose half-edges take only manifold, consistently wound faces and cost about ten times as much:
-// they are built when somebody asks.
+// Edges and orientation come from sorted arrays, fast enough for every mesh. Boundary loops and feature edges come from
+// OpenMesh. Its half-edges take only manifold, consistently wound faces and cost about ten times as much: they are
+// built on request.
 #pragma once
 
 #include "mesh/poly_mesh.h"
@@ -35,19 +35,20 @@ struct EdgeTable {
 
 EdgeTable findEdges(const PolyMesh& mesh);
 
-/// Keeps the faces that are marked, and what the tags say about them.
+/// Keeps the marked faces and their tags.
 void keepFaces(PolyMesh& mesh, const std::vector<char>& keep);
 
-/// A number per face: faces that share a position are of one component. Numbers run from 0 in the order of faces.
+/// A component number per face: faces that share a position are one component. Numbers run from 0 in the order of
+/// faces.
 struct Components {
     std::vector<std::uint32_t> ofFace;
     std::uint32_t count = 0;
 };
 Components findComponents(const PolyMesh& mesh);
 
-/// Drops faces that repeat another one (same corners in the same or the opposite direction), and turns faces around so
-/// that neighbours agree, as few as possible in each piece. Pieces that cannot agree, such as a Möbius band, stay as
-/// they are. Adds warnings without lines.
+/// Drops duplicate faces (same corners in the same or the opposite direction). Flips faces so that neighbours agree, as
+/// few as possible in each piece. Pieces that cannot agree, such as a Möbius band, stay as they are. Adds warnings
+/// without lines.
 void repairTopology(PolyMesh& mesh, std::vector<MeshWarning>& warnings);
 
 struct TopologyReport {

@@ -18,7 +18,7 @@ struct Triangles {
 };
 
 bool isPlainQuad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    // Both triangles of the diagonal a–c look the same way: true for convex quads and for those that are concave at a
+    // Both triangles of the diagonal a–c face the same way: true for convex quads and for those that are concave at a
     // or c.
     return glm::dot(glm::cross(b - a, c - a), glm::cross(c - a, d - a)) > 0;
 }
@@ -99,8 +99,8 @@ std::vector<glm::vec3> makeCornerNormals(const PolyMesh& mesh) {
                     const std::uint32_t corner = around[i], face = cornerFace[corner];
                     const glm::dvec3 own = unitOrZero(vectors[face]);
                     glm::dvec3 sum(0);
-                    // Vertices where thousands of faces meet (a cone's tip) would cost the square of that: there each
-                    // face keeps its own.
+                    // A vertex of thousands of faces (a cone's tip) would cost their square: there each face keeps its
+                    // own normal.
                     const bool crowded = first[v + 1] - first[v] > 4096;
                     for (std::uint32_t j = first[v]; j < first[v + 1] && !crowded; ++j) {
                         const std::uint32_t other = cornerFace[around[j]];
@@ -146,8 +146,8 @@ private:
 
     std::uint32_t vertex(std::uint32_t position, const glm::vec3& normal, const glm::vec2& uv) {
         std::uint32_t v = head_[position];
-        // A cone's tip may have a hundred thousand different normals: past a point, looking for one's like costs more
-        // than a vertex.
+        // A cone's tip may have a hundred thousand different normals: a longer search for an equal one costs more than
+        // a vertex.
         for (int steps = 0; v != kNone && steps < 256; v = next_[v], ++steps)
             if ((!needs_.normals || out_.normals[v] == normal) && (!needs_.uvs || out_.uvs[v] == uv)) return v;
         v = static_cast<std::uint32_t>(out_.positions.size());
@@ -178,7 +178,7 @@ glm::dvec3 choosePivot(const PolyMesh& mesh) {
     const double size = bounds.diagonal();
     if (!(size > 0)) return bounds.centre();
     const double grid = std::ldexp(1.0, std::ilogb(size) - 8);
-    // Not round(): its halves go away from zero, which is not the same place for a moved copy.
+    // Not round(): it moves halves away from zero, so a moved copy could round another way.
     return glm::floor(bounds.centre() / grid + 0.5) * grid;
 }
 

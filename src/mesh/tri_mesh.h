@@ -28,8 +28,8 @@ struct TriMesh {
     std::vector<glm::vec2> uvs;        ///< empty unless asked for
     std::vector<glm::vec3> colors;     ///< linear; empty unless asked for, and where the mesh has none
     std::vector<std::uint32_t>
-        indices;  ///< three positions per triangle, counter-clockwise from outside. Unless unified, the last one
-                  ///< of triangle t is t: rasterizers hand its vertex's number on as the triangle's
+        indices;  ///< three positions per triangle, counter-clockwise from outside. Unless unified, triangle t's last
+                  ///< index is t: rasterizers pass that vertex number on as the triangle's
     std::vector<std::uint32_t> normalIndices;  ///< three normals per triangle; empty when unified, or without normals
     std::vector<std::uint32_t> uvIndices;      ///< three uvs per triangle; empty when unified, or without uvs
     std::vector<std::uint32_t> colorIndices;   ///< three colours per triangle; empty when unified, or without colours
@@ -43,8 +43,8 @@ struct TriMesh {
 inline constexpr double kSmoothAngleDegrees = 30;
 
 /// Triangulates (concave polygons filled right, holes in self-touching ones left open) and gathers the attributes asked
-/// for. Missing normals are made: by smoothing group where the file has them, else smooth across edges flatter than
-/// kSmoothAngleDegrees. Zero-area triangles are dropped. Parallel; the result does not depend on threads.
+/// for. Makes missing normals: by smoothing group where the file has them, else smooth across edges flatter than
+/// kSmoothAngleDegrees. Drops zero-area triangles. Parallel; the result does not depend on threads.
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs);
 
 /// The middle of the vertices that faces use, rounded to a coarse grid so that pivots of moved copies differ by exactly
@@ -53,8 +53,8 @@ glm::dvec3 choosePivot(const PolyMesh& mesh);
 /// buildTriMesh around a given pivot, before the numbering.
 TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm::dvec3& pivot);
 
-/// Turns the corners of triangles around, and orders and repeats positions, so that indices[3·t + 2] == t. Drawing
-/// programs number triangles themselves too (gl_PrimitiveID), but software renderers are slow at it.
+/// Rotates the corners of triangles, and reorders and repeats positions, so that indices[3·t + 2] == t. Shaders could
+/// number triangles too (gl_PrimitiveID), but software renderers are slow at it.
 void numberByLastVertex(TriMesh& mesh);
 
 /// Corner indices (0 … n−1) of the triangles that fill a polygon; n−2 of them unless it crosses itself.

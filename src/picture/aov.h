@@ -1,6 +1,6 @@
-// The vocabulary of images: the names by which passes and people speak of them. Slots promise AOVs (effects/slot.h);
-// readers never name a technique. What several effects speak of stands here; an AOV that one technique alone makes is
-// declared in that technique's file, in the same way.
+// The vocabulary of images: passes and people use these names for them. Slots promise AOVs (effects/slot.h); readers
+// never name a technique. This file declares the AOVs of several effects. A technique's own file declares, in the same
+// way, an AOV that it alone makes.
 #pragma once
 
 #include "picture/format.h"
@@ -32,9 +32,9 @@ struct Aov {
     AovKind kind;
     AovUse use;
     std::string_view doc;
-    std::string_view onlyBy;  ///< the only technique that makes it; empty: every technique of a slot that promises it
+    std::string_view onlyBy;  ///< the only technique that makes it; empty: all techniques of the slots that promise it
 
-    /// Makes the AOV known, unless it is for use between passes.
+    /// Registers the AOV, unless it is for use between passes.
     Aov(std::string_view name_, Format format_, std::array<std::string_view, 4> channels_, AovKind kind_, AovUse use_,
         std::string_view doc_, std::string_view onlyBy_ = {});
     Aov(const Aov&) = delete;
@@ -88,7 +88,7 @@ inline const Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle
 const std::vector<const Aov*>& allAovs();
 const Aov* findAov(std::string_view name);
 
-/// What the images `depth` holds where nothing was hit. Files say infinity.
+/// The background's value in the image `depth`. Files say infinity.
 inline constexpr float kBackgroundDepth = 3.402823466e38f;
 
 }  // namespace limn

@@ -1,7 +1,7 @@
 // Large pictures are made of blocks and tiles.
 //
-// Blocks are part of what a picture is: each is drawn with triangles of its own, below every driver's limit and small
-// enough for memory. Tiles are how a block is worked through: tiles of any size give the same bits.
+// Blocks are part of the picture: each draws its own triangles, below every driver's limit and small enough for memory.
+// Tiles are the steps in which a block is drawn: tiles of any size give the same bits.
 #pragma once
 
 #include "picture/pixel_rect.h"
@@ -11,21 +11,20 @@
 
 namespace limn {
 
-/// A part of a picture, in pixels from the lower left: the block that its triangles are drawn with, and itself.
+/// A part of a picture and the block whose triangles it draws, in pixels from the lower left.
 struct Tile {
     PixelRect block, rect;
 };
 
-/// The longest side that a block of a picture of this size has.
+/// The longest side of a block in a picture of this size.
 int largestBlockSide(glm::ivec2 size);
 /// The first block, which is as large as any.
 glm::ivec2 largestBlock(glm::ivec2 size);
 
-/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: what is drawn at half the size keeps its
-/// place.
+/// Cuts [0, length) into spans of at most `most`, begun at multiples of four: images of half the size keep their place.
 std::vector<std::pair<int, int>> spans(int length, int most);
 
-/// Along one axis: where a tile's block begins and ends, and where the tile does.
+/// The ends of a tile and of its block along one axis.
 struct TileSpan {
     int blockFrom, blockTo, from, to;
 };

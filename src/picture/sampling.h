@@ -1,14 +1,14 @@
-// The samples of a picture: how many there are, where in a pixel each looks, and which passes run in it.
+// The samples of a picture: their number, their places in a pixel, and the passes that run in each.
 //
-// A rate says in how many of a frame's samples something runs: those are spread evenly over all of them, the first one
-// is always among them, and two things of one rate run in the same samples.
+// A rate is the number of a frame's samples in which something runs. These samples are spread evenly and include the
+// first. Two things of one rate run in the same samples.
 #pragma once
 
 #include <glm/glm.hpp>
 
 namespace limn {
 
-/// Something runs in every sample.
+/// The rate of things that run in every sample.
 inline constexpr int kEverySample = 0;
 
 /// n samples are n = raster² · subFrames. A sub-frame's triangles are drawn once, on a raster finer than the picture;
@@ -20,19 +20,19 @@ struct Sampling {
     int perSubFrame() const { return raster * raster; }
     int samples() const { return perSubFrame() * subFrames; }
     int subFrameOf(int sample) const { return sample / perSubFrame(); }
-    /// Which fine pixel of each pixel a sample looks at: samples that follow each other, and those at even distances,
-    /// lie well apart.
+    /// The fine pixel that a sample looks at in each pixel. Consecutive samples, and those at even distances, lie well
+    /// apart.
     glm::ivec2 placeOnRaster(int sample) const;
     /// Offset of a sub-frame within a fine pixel, in fine pixels: Hammersley points, centred so that their mean is the
     /// pixel's centre.
     glm::dvec2 jitterOf(int subFrame) const;
-    /// Does what has this rate run in the sample?
+    /// Do things of this rate run in the sample?
     bool runs(int rate, int sample) const;
-    /// In how many samples it runs.
+    /// The number of samples in which they run.
     int count(int rate) const { return rate == kEverySample ? samples() : rate; }
 };
 
-/// As fine a raster as divides n, fits the driver, and keeps its fine pixels below 2^24: triangles are then drawn least
+/// The finest raster that divides n, fits the driver, and keeps its fine pixels below 2^24: it draws triangles least
 /// often.
 Sampling splitSamples(int samples, glm::ivec2 size, int maxTextureSize);
 

@@ -12,7 +12,7 @@ glm::dmat3 cameraBasis(const Camera& camera, const glm::dvec3& sceneUp) {
     glm::dvec3 up = camera.up == glm::dvec3(0) ? sceneUp : camera.up;
     glm::dvec3 right = glm::cross(up, backward);
     if (glm::dot(right, right) < 1e-20 * glm::dot(up, up)) {
-        // Looking straight along the up axis: any of the other axes will do, always the same one.
+        // Looking straight along the up axis: any other axis will do, but always the same one.
         up = std::abs(backward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
         right = glm::cross(up, backward);
     }
@@ -105,7 +105,7 @@ glm::dmat4 View::worldFromView() const {
     return m;
 }
 
-/// Where rays go: lens, shift, and the sample's place within its pixels.
+/// Sets the rays: lens, shift, and the sample's place within its pixels.
 static void setRays(View& view, const Camera& camera) {
     const glm::dvec2 size(view.imageSize);
     double width;  // of the picture at unit depth, or in normalized units
@@ -126,7 +126,7 @@ static void setRays(View& view, const Camera& camera) {
     view.samplePlace = jitter + place;
 }
 
-/// Near, far, and what lies nearest.
+/// Sets near, far, and the nearest depth.
 static void setDepths(View& view, const Camera& camera, const SceneInfo& scene) {
     Bounds depths;
     for (int corner = 0; corner < 8 && !scene.bounds.empty(); ++corner) {
@@ -134,8 +134,7 @@ static void setDepths(View& view, const Camera& camera, const SceneInfo& scene) 
             corner & 2 ? scene.bounds.hi.y : scene.bounds.lo.y, corner & 4 ? scene.bounds.hi.z : scene.bounds.lo.z);
         depths.add(glm::dvec3(0, 0, -view.toView(p).z));
     }
-    // Objects may leave the first frame's box later: leave room. Perspective depth does not depend on either number's
-    // size.
+    // Objects may leave the first frame's box later: leave room. Perspective depth depends on neither number.
     const double reach = depths.empty() ? 1 : std::max(depths.hi.z, 0.0);
     view.far = camera.far > 0 ? camera.far * view.unit : reach * 1.5 + 1;
     // Reversed float depth is as precise with a tiny near distance as with a large one.

@@ -1,11 +1,11 @@
-// One view of the scene: where the camera is, and which pixels and samples of the picture are drawn.
+// One view of the scene: the camera's place, and the pixels and samples that are drawn.
 //
 // Fine pixels. A picture of n samples per pixel is drawn as m sub-frames, each on a raster k times finer, n = k²·m. A
-// fine raster is k² ordinary sub-frames, interleaved: effects that think in output pixels step k fine pixels, so that
-// what they draw does not depend on how n was split.
+// fine raster is k² ordinary sub-frames, interleaved: effects that count in output pixels step k fine pixels, so that
+// their result does not depend on the split of n.
 //
-// Normalized units. All lengths on the GPU are scene units times a power of two that brings the scene's diagonal to [1,
-// 2): scenes of any size give the same bits.
+// Normalized units. All lengths on the GPU are scene units times a power of two. It brings the scene's diagonal to [1,
+// 2), so that scenes of any size give the same bits.
 #pragma once
 
 #include "picture/pixel_rect.h"
@@ -30,11 +30,9 @@ struct SceneInfo {
 
 struct View {
     glm::ivec2 imageSize{0};  ///< of the whole picture, in output pixels
-    int guard =
-        0;  ///< pixels drawn around the picture, so that effects that look around themselves are right at its border
-    PixelRect canvas;  ///< what triangles are drawn into at once: the picture, or one of the blocks of a large one, and
-                       ///< the guard band
-    PixelRect region;  ///< what effects draw: the canvas, or a tile of it and a guard band
+    int guard = 0;  ///< width of the guard band in pixels: effects with a halo are then right at the picture's border
+    PixelRect canvas;  ///< the triangles' target: the picture, or one block of a large one, and the guard band
+    PixelRect region;  ///< the effects' target: the canvas, or a tile of it and a guard band
     Sampling sampling;
     int sample = 0;                      ///< of sampling.samples()
     int aoSamples = 1, lineSamples = 1;  ///< rates of finding ambient occlusion and lines; at most all samples
@@ -43,14 +41,12 @@ struct View {
     bool orthographic = false;
     glm::dvec3 eye{0};  ///< camera position, world, scene units
     /// World directions and offsets from the eye in scene units → view space in normalized units. Subtracting the eye
-    /// first, in double, is what keeps scenes far from the origin exact: there is no matrix with a large translation in
-    /// it.
+    /// first, in double, keeps scenes far from the origin exact: no matrix has a large translation.
     glm::dmat3 viewFromRelative{1};
-    /// Where the sample's ray through pixel p (counted from the picture's lower left) goes: its view-space xy at unit
-    /// depth, or for an orthographic camera its xy, is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are in
-    /// it.
+    /// The sample's ray through pixel p, counted from the picture's lower left: its view-space xy at unit depth
+    /// (orthographic: its xy) is (p + 0.5) · rayScale + rayOffset. Jitter and lens shift are included.
     glm::dvec2 rayScale{1}, rayOffset{0};
-    glm::dvec2 samplePlace{0};  ///< where the sample's rays go within their pixels: from the centre, in pixels
+    glm::dvec2 samplePlace{0};  ///< place of the sample's rays within their pixels: from the centre, in pixels
     /// rayOffset of the sub-frame as a whole, without the sample's place on the fine raster.
     glm::dvec2 rasterOffset{0};
     double near = 0, far = 0;  ///< normalized units; only paper modes depend on `far`
@@ -61,9 +57,9 @@ struct View {
     double nearest =
         0;  ///< depth of the nearest corner of the scene's box, or 0 where the eye is inside; normalized units
     int keptGuard = 0;    ///< pixels of the guard band that are wanted with the picture
-    int widestGuard = 0;  ///< pixels: how wide a guard band effects may ask for
+    int widestGuard = 0;  ///< pixels: the widest guard band that effects may ask for
 
-    /// Does what has this rate run in this sample?
+    /// Do things of this rate run in this sample?
     bool runs(int rate) const { return sampling.runs(rate, sample); }
     /// Clip space from view space for the canvas, as the fine raster sees it: reversed depth, infinitely far
     /// (perspective) or linear (orthographic).
@@ -73,10 +69,10 @@ struct View {
     /// A length of a parameter in normalized units.
     double normalized(const Length& length) const { return length.inSceneUnits(diagonal) * unit; }
     double pixels(const PictureLength& length) const { return length.inPixels(imageSize.y, dpi); }
-    /// How far around a pixel an effect of this reach (normalized units) may look, in pixels: at the nearest surface
-    /// there can be, but no farther than the guard band may be wide.
+    /// The halo, in pixels, of an effect of this reach (normalized units) at the nearest possible surface: at most the
+    /// widest guard band.
     int haloOf(double reach) const;
-    /// Does a halo hold all that an effect would look at, or was it cut at the guard band's widest?
+    /// Does a halo hold all that an effect would look at? Else the widest guard band has cut it.
     bool holds(int halo) const { return halo < widestGuard; }
 };
 

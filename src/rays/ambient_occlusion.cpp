@@ -25,8 +25,8 @@ std::uint32_t mixBits(std::uint32_t x) {
 }
 
 /// Cosine-weighted directions around z, for the 16 pixels of a 4×4 tile one after the other. Every block of 4×4 pixels,
-/// aligned or not, shares out one additive recurrence (by the plane's golden ratio, 2^32/1.3247… and its square), so
-/// that a filter over it sees 16·n evenly spread directions; samples go on where the last one ended, and the seed
+/// aligned or not, shares one additive recurrence (by the plane's golden ratio, 2^32/1.3247… and its square), so that a
+/// filter over it sees 16·n evenly spread directions. Each sample continues the last one's sequence, and the seed
 /// shifts them all.
 std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed) {
     std::vector<glm::vec3> directions;
@@ -40,7 +40,7 @@ std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed
     return directions;
 }
 
-/// Which of the 16 a pixel is.
+/// The pixel's number among the 16.
 std::size_t placeInTile(glm::ivec2 pixel) {
     constexpr std::size_t kOrder[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
     return kOrder[pixel.y & 3][pixel.x & 3];
@@ -58,7 +58,7 @@ struct Origin {
     glm::vec3 position, normal, tangent, bitangent;
 };
 
-/// What is hidden of each ray's way: V·w.
+/// Traces rays in packets, and gives the hidden part V·w of each.
 class Packet {
 public:
     Packet(RTCScene scene, const OcclusionQuery& query)
@@ -127,7 +127,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
     const glm::dmat4 raysFromView = scene.raysFromView(view);
     const glm::dmat3 rotation(raysFromView);
     const int rays = query.rays;
-    // Enough groups for a spread, enough rays in each to be evenly spread themselves.
+    // There must be enough groups to measure a spread, and enough rays in each group to be evenly spread.
     const int groups = rays >= 64 ? 16 : rays >= 16 ? 4 : 1;
     const std::vector<glm::vec3> directions = spreadDirections(rays, view.sample, view.seed);
     const auto number = [](int value) { return static_cast<std::size_t>(value); };
@@ -150,8 +150,8 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
                         * glm::dvec3(decodeDirection(
                             {surfaces.normalGeometric[2 * at], surfaces.normalGeometric[2 * at + 1]}))));
                     complete(origin.normal, origin.tangent, origin.bitangent);
-                    // Coordinates are rounded by 2^-24 of their size, the depth they came from by as much of itself,
-                    // and the tree's own vertices once more: four times their sum.
+                    // Coordinates, their depth, and the tree's own vertices are each rounded by 2^-24 of their size:
+                    // take four times the sum.
                     const double slack =
                         (std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z), 1.0}) * 2 + z)
                         * 0x1p-22;
@@ -184,7 +184,7 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
                         }
                         variance /= groups * (groups - 1);
                     } else {
-                        // Laplace's rule keeps a few equal answers from claiming certainty.
+                        // With Laplace's rule a few equal hits do not claim certainty.
                         const double share = (sum + 1) / (rays + 2);
                         variance = share * (1 - share) / rays;
                     }

@@ -1,4 +1,4 @@
-// Ambient occlusion by ray tracing: the truth by which every other technique is measured.
+// Ambient occlusion by ray tracing: the ground truth for every other technique.
 //
 //     A(p) = 1 − (1/π) ∫ V(ω) · w(d) · cos θ dω      over the hemisphere around the geometric normal,
 //
@@ -19,16 +19,16 @@ struct OcclusionQuery {
     int rays = 4;  ///< per pixel
 };
 
-/// The surfaces that a view sees, as read back: rows from the lower left, of view.region.size.
+/// The visible surfaces of a view, as read back: rows from the lower left, of view.region.size.
 struct SeenSurfaces {
     std::span<const float> depth;            ///< normalized units; kBackgroundDepth where nothing is
     std::span<const float> normalGeometric;  ///< two octahedral coordinates per pixel (shaders/lib/normals.glsl)
 };
 
-/// Writes A of every pixel of `part` (of the region drawn) to `visibility` (background 1) and its standard error to
-/// `error` (background 0), each unless it is empty: from the spread of independent groups of rays where there are
-/// enough of them, else that of as many independent hits. In parallel; the result does not depend on threads. Origins
-/// are lifted off their surface by a few roundings of their coordinates and of the depth they came from.
+/// Writes A of every pixel of `part` (of the region drawn) to `visibility` (background 1), and its standard error to
+/// `error` (background 0), each unless it is empty. The error is the spread of independent groups of rays where there
+/// are enough, else that of as many independent hits. In parallel; the result does not depend on threads. Origins are
+/// lifted off their surface by a few roundings of their coordinates and of their depth.
 void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSurfaces& surfaces,
     const OcclusionQuery& query, const PixelRect& part, std::span<float> visibility, std::span<float> error);
 

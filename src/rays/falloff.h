@@ -1,5 +1,5 @@
-// How the weight of an occluder falls with its distance: part of what ambient occlusion means here, shared by every
-// technique.
+// The falloff of an occluder's weight with distance: part of the definition of ambient occlusion, shared by all
+// techniques.
 #pragma once
 
 #include "settings/fields.h"

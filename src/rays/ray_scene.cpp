@@ -23,7 +23,7 @@ struct ReleaseScene {
 using TreeDevice = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
-/// Embree reports by code; the only failure that input can cause is a lack of memory.
+/// Embree reports error codes. The only failure that input can cause is a lack of memory.
 void check(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
@@ -40,21 +40,21 @@ Tree makeScene(RTCDevice device) {
     return scene;
 }
 
-/// Where a material has holes.
+/// The image that cuts a material's holes.
 struct Mask {
     const Image* image;
     glm::vec2 scale, offset;  ///< of texture coordinates
     bool repeats, isSharp;
 };
 
-/// What Embree needs to know to let rays through the holes of a mesh.
+/// Data of Embree's filter, which lets rays through the holes of a mesh.
 struct Holes {
     std::vector<const Mask*> mask;  ///< of each triangle; null: it has none
-    std::vector<glm::vec2> uvs;     ///< three per triangle, as the mask counts them
+    std::vector<glm::vec2> uvs;     ///< three per triangle, in the mask's coordinates
 };
 
 float alphaAt(const Mask& mask, glm::vec2 uv) {
-    // Bilinear, as shaders/lib/texture.glsl does; of sharp texels the nearest.
+    // Bilinear as in shaders/lib/texture.glsl; the nearest texel where texels are sharp.
     const Image& image = *mask.image;
     const glm::ivec2 count(image.width, image.height);
     const glm::vec2 inside = mask.repeats ? uv - glm::floor(uv) : glm::clamp(uv, 0.0f, 1.0f),
@@ -117,7 +117,7 @@ struct RayScene::Trees {
     std::map<std::uint32_t, Mask> masks;  ///< by the number of the material
     std::vector<std::unique_ptr<Holes>> holes;
 
-    /// For each of the mesh's materials, as an instance shows it, what cuts holes; empty where none does.
+    /// The mask of each of the mesh's materials, as an instance shows it; empty where none cuts holes.
     std::vector<const Mask*> masksOf(const SceneAt& scene, const DrawInstance& instance) {
         std::vector<const Mask*> list;
         for (const auto number : instance.materials) {
@@ -161,7 +161,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
     if (!trees_->device) check(nullptr);
     RTCDevice device = trees_->device.get();
     trees_->top = makeScene(device);
-    // Instances share a tree where they share a mesh and the holes in it.
+    // Instances share a tree if they share a mesh and its holes.
     using Look = std::pair<const TriMesh*, std::vector<const Mask*>>;
     std::vector<Look> looks;
     std::map<Look, int> uses;
@@ -205,7 +205,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
 RayScene::~RayScene() = default;
 
 glm::dmat4 RayScene::raysFromView(const View& view) const {
-    // viewFromRelative is a rotation times view.unit, which is also ours.
+    // viewFromRelative is a rotation times view.unit, which is also ray space's unit.
     glm::dmat4 m(glm::transpose(view.viewFromRelative) / view.unit);
     m[3] = glm::dvec4((view.eye - origin_) * unit_, 1);
     return m;

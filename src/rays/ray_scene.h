@@ -1,7 +1,7 @@
 // A scene's triangles for rays, with Embree in robust (watertight) mode.
 //
-// Ray space: (world − origin) · unit, as float. The origin is a corner of the scene's box and the unit a power of two
-// that brings its diagonal to [1, 2), so that scenes far away and of any size are the same scene to the bit, and
+// Ray space: (world − origin) · unit, as float. The origin is a corner of the scene's box. The unit is a power of two
+// that brings the box's diagonal to [1, 2). So scenes far away and of any size are the same scene to the bit, and
 // coordinates lie in [0, 2).
 #pragma once
 
@@ -19,8 +19,8 @@ namespace limn {
 
 class RayScene : public HostScene {
 public:
-    /// Builds the tree. `meshOf`: the mesh of each instance of the scene. Meshes that stand once are built in place; of
-    /// meshes that stand more often one tree is shared. Keeps no reference to the meshes. Throws Error (out of memory).
+    /// Builds the tree. `meshOf`: the mesh of each instance of the scene. A mesh with one instance is built in place;
+    /// several instances share one tree. Keeps no reference to the meshes. Throws Error (out of memory).
     RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf);
     ~RayScene() override;
     RayScene(const RayScene&) = delete;

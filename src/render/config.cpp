@@ -99,7 +99,7 @@ constexpr Field kOutput[] = {
     field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100}, "Quality of JPEG."),
 };
 
-/// The techniques that a node of a slot's key chooses.
+/// The techniques that the value of a slot's key chooses.
 std::vector<TechniqueChoice> readSlot(const Slot& slot, const Node& node, ErrorCollector& errors) {
     std::vector<std::string_view> children;
     for (const auto& other : allSlots())
@@ -227,10 +227,10 @@ private:
                 config_.output.path = pathIn(*path);
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
         }
-        // Printers are told of a density that somebody chose.
+        // A density that the config chose goes into the file, for printers.
         if (const Node* image = document_.find("image"); document_.find("sheet") || (image && image->find("dpi")))
             config_.output.encode.dpi = config_.image.dpi;
-        // Without a word about where to: beside the working directory, under the config's name.
+        // The default path: the config's name in the working directory.
         if (config_.output.path.empty()) config_.output.path = config_.file.stem().string() + ".png";
         if (!imageFormat(config_.output.path))
             fail(path ? *path : document_, fmt::format("'{}' is no picture file", config_.output.path.string()),
@@ -257,7 +257,7 @@ private:
         if (node.array().empty()) fail(node, "'aovs' in [output] is empty", "name at least \"beauty\"");
     }
 
-    /// The slots that make an AOV: those that promise it, or that its only technique stands in.
+    /// The slots that make an AOV: those that promise it, or those of its only technique.
     static std::vector<const Slot*> makers(const Aov& aov) {
         std::vector<const Slot*> slots;
         for (const auto& slot : allSlots()) {
@@ -267,7 +267,7 @@ private:
         return slots;
     }
 
-    /// Is a slot filled that makes the AOV? Whether its technique really does, the frame's plan tells.
+    /// Is a slot filled that makes the AOV? The frame's plan tells whether its technique really does.
     bool isMade(const Aov& aov) const {
         const auto slots = makers(aov);
         return slots.empty() || std::any_of(slots.begin(), slots.end(), [&](const Slot* slot) {

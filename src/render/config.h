@@ -1,4 +1,4 @@
-// A render config: what a person asked for, read and checked.
+// A render config, read and checked.
 #pragma once
 
 #include "effects/technique.h"
@@ -12,7 +12,7 @@
 
 namespace limn {
 
-/// What fills each slot, by the slot's name; nothing where no technique does.
+/// The techniques in each slot, by the slot's name; empty slots are left out.
 using Choices = std::map<std::string, std::vector<TechniqueChoice>, std::less<>>;
 
 struct ImageSettings {
@@ -42,7 +42,7 @@ struct RenderConfig {
     ImageSettings image;
     Choices choices;
     std::vector<std::string> sections;  ///< names of the scene's sections to cut by
-    double scale = 0;                   ///< of a drawing on a sheet: 1/50 for example; 0: as the camera says
+    double scale = 0;                   ///< of a drawing on a sheet, for example 1/50; 0: from the camera
     std::optional<FrameRange> frames;   ///< replaces the scene's
     OutputSettings output;
     std::string hash;  ///< of everything in the config, includes and settings applied
@@ -55,27 +55,27 @@ struct ConfigTable {
     std::string_view name, doc;
     Schema schema;
 };
-/// Those that choose no technique, for the parameter reference.
+/// The tables that choose no technique, for the parameter reference.
 std::vector<ConfigTable> configTables();
 
-/// What the command line adds to a config.
+/// Settings of the command line, over a config.
 struct ConfigOverrides {
     std::vector<std::string> settings;  ///< KEY=VALUE
     std::string camera;
     MeshFileOptions meshFile;  ///< where the scene is a mesh file
 };
 
-/// Reads a config, or makes the quickstart's style around an OBJ file. Every problem at once (Errors).
+/// Reads a config, or draws an OBJ file in the quickstart's style. Throws every problem at once (Errors).
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides = {});
 RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides = {});
 
-/// What a config's document chooses for the slots. Problems go to `errors`.
+/// The choices of a config's document for the slots. Problems go to `errors`.
 Choices readChoices(const Node& document, ErrorCollector& errors);
 
-/// What the config wants of its scene at a frame.
+/// The config's request for its scene at a frame.
 FrameRequest frameRequest(const RenderConfig& config, double frame);
 
-/// The style in which a bare OBJ is drawn, as TOML.
+/// The style of a bare OBJ, as TOML.
 std::string_view quickstartStyle();
 
 }  // namespace limn

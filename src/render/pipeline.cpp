@@ -8,8 +8,8 @@
 namespace limn {
 namespace {
 
-/// The sum of an AOV over the samples of each pixel. Where nothing else reads the AOV, the pass that makes it adds it
-/// up itself; else another one does. Returns the sum, and of how many samples it is.
+/// The sum of an AOV over the samples of each pixel. The AOV's own pass sums it up where nothing else reads it; else
+/// another pass does. Returns the sum and its number of samples.
 std::pair<ResourceId, int> sumOf(Graph& graph, EffectBuilder& builder, const Aov& aov, const View& view) {
     const ResourceId image = builder.read(aov);
     const Format format = info(aov.format).channels == 1 ? Format::r32f : Format::rgba32f;
@@ -44,7 +44,7 @@ std::pair<ResourceId, int> sumOf(Graph& graph, EffectBuilder& builder, const Aov
     return {sum, view.sampling.count(rate)};
 }
 
-/// Lets the techniques of all slots add their passes, in order.
+/// Adds the passes of all slots' techniques, in order.
 void fillSlots(const RenderConfig& config, EffectBuilder& builder, Graph& graph, double frame) {
     std::vector<const TechniqueChoice*> all;
     for (const auto& slot : allSlots())
@@ -101,7 +101,7 @@ const Pass& passOf(const Pipeline& pipeline, const PlannedPass& planned) {
     return pipeline.graph.passes[static_cast<std::size_t>(planned.pass)];
 }
 
-/// Bytes that a plan's images take per pixel of the region drawn; what is as large as the canvas left out.
+/// Bytes of a plan's images per pixel of the region drawn, without images as large as the canvas.
 double bytesPerPixel(const Pipeline& pipeline, const View& view) {
     double bytes = 0;
     for (const auto& texture : pipeline.plan.textures)
@@ -122,7 +122,7 @@ Pipeline buildPipeline(const RenderConfig& config, const SceneFacts& facts, cons
     std::span<const Aov* const> aovs, double frame) {
     try {
         return buildUnplaced(config, facts, view, aovs, frame);
-    } catch (const Error& error) {  // techniques do not know what file their settings came from
+    } catch (const Error& error) {  // techniques do not know their settings' file
         if (!error.where.file.empty() || error.code != ExitCode::usage) throw;
         throw Error(error.code, {config.file.string()}, error.problem, error.remedy);
     }
@@ -149,7 +149,7 @@ ViewRequest viewRequest(
     request.dpi = config.image.dpi;
     request.guard = guard;
     request.keptGuard = keptGuard;
-    constexpr int kWidest = 512;  // what large pictures can afford around each block
+    constexpr int kWidest = 512;  // the most that large pictures can afford around each block
     request.widestGuard = std::min(
         static_cast<int>(std::ceil(config.image.guard * std::max(config.image.size.x, config.image.size.y))), kWidest);
     return request;
@@ -159,7 +159,7 @@ TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, c
     int maxTextureSize, int keptGuard, const Tile& tile) {
     TilePipelines result;
     const auto averaged = chooseAovs(config.output.aovs, true), centre = chooseAovs(config.output.aovs, false);
-    // Without anything to average one look at the pixel's centre is all there is to do.
+    // Without anything to average, one sample at the pixel's centre is enough.
     const bool together = averaged.empty() || config.image.samples == 1;
     const std::span<const Aov* const> first = together ? config.output.aovs : averaged;
     const auto viewOf = [&](const Sampling& sampling) {
@@ -173,7 +173,7 @@ TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, c
         result.centre = buildPipeline(config, facts, result.centreView, centre, frame);
     };
     if (!averaged.empty()) result.sampling = {1, config.image.samples};
-    // The first pipelines tell how wide a guard band is needed, and whether a finer raster is of use.
+    // The first pipelines tell the guard band's width, and whether a finer raster is useful.
     build();
     result.guard = std::max(result.averaged.plan.halo(), result.centre ? result.centre->plan.halo() : 0);
     if (result.averaged.usesFineRaster)

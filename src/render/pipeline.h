@@ -1,4 +1,4 @@
-// From a config to the passes of a picture: what could be drawn, what is wanted of it, and what therefore runs.
+// From a config to the passes of a picture: the possible passes, the wanted images, and the passes that run for them.
 #pragma once
 
 #include "graph/graph.h"
@@ -9,20 +9,20 @@
 
 namespace limn {
 
-/// The passes for some AOVs, compiled. Made once for all samples of a tile.
+/// The compiled passes for some AOVs. Made once for all samples of a tile.
 struct Pipeline {
     Graph graph;
     std::vector<Wanted> wanted;  ///< one per AOV, in the order of `aovs`
     std::vector<const Aov*> aovs;
-    std::vector<int> summed;  ///< beside them: of how many samples the image is the sum
+    std::vector<int> summed;  ///< parallel to them: the number of samples in the image's sum
     Plan plan;
-    bool usesFineRaster = false;  ///< something is drawn once for several samples
+    bool usesFineRaster = false;  ///< some pass draws once for several samples
 
-    /// What is to be done in the view's sample.
+    /// The plan for the view's sample.
     Plan ofSample(const View& view) const;
 };
 
-/// `aovs`: what is wanted. With several samples the averaged ones are summed over them.
+/// `aovs`: the wanted ones. With several samples the averaged AOVs are summed over them.
 Pipeline buildPipeline(const RenderConfig& config, const SceneFacts& facts, const View& view,
     std::span<const Aov* const> aovs, double frame);
 
@@ -43,20 +43,19 @@ struct TilePipelines {
 ViewRequest viewRequest(
     const RenderConfig& config, const Sampling& sampling, int frame, int guard, int keptGuard, const Tile& tile = {});
 
-/// `maxTextureSize` is the driver's; it may change how samples are split, not what the scene must bring.
+/// `maxTextureSize` is the driver's; it may change the split of samples, but not the data that the scene must have.
 TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, const SceneFacts& facts, int frame,
     int maxTextureSize, int keptGuard, const Tile& tile = {});
 
 /// Names of the passes, in their order.
 std::string passNames(const Pipeline& pipeline);
 
-/// Does some pass look as far as there is anything? Tiles would then differ from the whole.
+/// May some pass read any pixel? Tiles would then differ from the whole.
 bool looksEverywhere(const Pipeline& pipeline);
 /// May the picture be cut into tiles of any size, to the same bits?
 bool takesAnyTile(const TilePipelines& pipelines);
 
-/// How large the tiles of a picture may be. As large as memory allows, since what lies around each is drawn again and
-/// again.
+/// The size of a picture's tiles. It is as large as memory allows, since each tile's guard band is drawn again.
 int chooseTileSize(const RenderConfig& config, const TilePipelines& pipelines, glm::ivec2 block);
 
 }  // namespace limn

@@ -39,7 +39,7 @@ std::vector<float> decodeDirections(const std::vector<float>& encoded) {
     return decoded;
 }
 
-/// Reads a rectangle of an image back, turned so that rows run from the top; of a sum of samples their mean.
+/// Reads a rectangle of an image back, with rows from the top. A sum of samples becomes their mean.
 Image readBack(const gl::Texture& texture, const Aov& aov, int summed, const PixelRect& rect) {
     const int channels = aov.channelCount();
     Image image{rect.size.x, rect.size.y, channels, {}};
@@ -62,8 +62,8 @@ Image readBack(const gl::Texture& texture, const Aov& aov, int summed, const Pix
     return image;
 }
 
-/// Depth leaves in scene units, infinite on the background; everything else as it is. Counts values that are not finite
-/// before that.
+/// Turns depth into scene units, infinite on the background, and leaves other images as they are. First counts values
+/// that are not finite.
 std::uint64_t finish(Image& image, const Aov& aov, double unit) {
     std::atomic<std::uint64_t> bad = 0;
     const bool isDepth = aov.kind == AovKind::depth;
@@ -91,7 +91,7 @@ Image crop(const Image& image, const PixelRect& rect) {
     return part;
 }
 
-/// CPU features that llvmpipe's code depends on, and with it the last bits of its results.
+/// CPU features on which llvmpipe's code depends, and the last bits of its results.
 std::string cpuFeatures() {
     std::string text;
     const auto add = [&](bool present, const char* name) {
@@ -120,7 +120,7 @@ void putIntoBand(
         band.pixels.resize(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height)
             * static_cast<std::size_t>(band.channels));
     }
-    const int skipped = tile.origin.y + tile.size.y - bandRect.origin.y - bandRect.size.y;  // rows of the tile above it
+    const int skipped = tile.origin.y + tile.size.y - bandRect.origin.y - bandRect.size.y;  // its rows above the band
     for (int y = 0; y < bandRect.size.y && left < right; ++y) {
         const float* from = image.at(left - tile.origin.x, skipped + y);
         std::copy(from, from + static_cast<std::ptrdiff_t>(right - left) * image.channels,
@@ -128,7 +128,7 @@ void putIntoBand(
     }
 }
 
-/// Hands a band on, or adds it to what the frame holds.
+/// Hands a band on, or adds it to the frame's images.
 void takeBand(std::vector<Image>&& band, const RenderOptions& options, RenderedFrame& result) {
     if (!options.onBand) {
         for (std::size_t i = 0; i < band.size(); ++i) {
@@ -142,7 +142,7 @@ void takeBand(std::vector<Image>&& band, const RenderOptions& options, RenderedF
         }
         return;
     }
-    // A few rows at a time: what is made of them on their way into files is then small.
+    // Hands a few rows on at a time, which keeps encoders' buffers small.
     constexpr int kRows = 128;
     for (int top = 0; top < band.front().height; top += kRows) {
         for (std::size_t i = 0; i < band.size(); ++i)
@@ -178,7 +178,7 @@ Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path&
 int Renderer::largestTexture() const { return std::min(device_.limits().maxTextureSize, device_.limits().maxViewport); }
 
 void Renderer::prepare(const Pipeline& pipeline, View view) {
-    // Samples differ by which passes run in them.
+    // Samples differ in the passes that run in them.
     std::set<std::vector<bool>> kinds;
     for (view.sample = 0; view.sample < view.sampling.samples(); ++view.sample) {
         std::vector<bool> runs;
@@ -205,7 +205,7 @@ MadeMeshes Renderer::makeMissing(
     };
     if (std::none_of(orders.orders.begin(), orders.orders.end(), isMissing)) return {};
     Stopwatch watch(times);
-    // Triangles are made while the programs load.
+    // Makes triangles while the programs load.
     auto coming =
         awaited_.valid() ? std::move(awaited_) : std::async(std::launch::async, [&] { return make(isMissing); });
     prepare(pipelines.averaged, pipelines.averagedView);
@@ -240,7 +240,7 @@ bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf,
         const DrawInstance& instance = frame.scene.instances[i];
         meshes.push_back(&rayMeshes_.at(meshOf[i]));
         key.add(meshOf[i].low).add(meshOf[i].high).bytes(&instance.worldFromMesh, sizeof instance.worldFromMesh);
-        for (const auto material : instance.materials) {  // whose images may cut holes
+        for (const auto material : instance.materials) {  // its images may cut holes
             const ContentKey& texture = frame.scene.textureKeys[material];
             key.add(texture.low).add(texture.high);
         }
@@ -309,7 +309,7 @@ std::vector<Image> Renderer::drawTile(
     const auto collect = [&](const Pipeline& pipeline) {
         for (std::size_t i = 0; i < pipeline.aovs.size(); ++i) {
             const auto& texture = executor_.texture(pipeline.plan, pipeline.wanted[i].resource);
-            // By a guard band that nobody wants.
+            // The image has a guard band that nobody wants.
             const bool isWider = texture.size().x != tile.rect.size.x && options.guard == 0;
             const PixelRect rect = isWider ? PixelRect{glm::ivec2(pipelines.guard), tile.rect.size}
                                            : PixelRect{glm::ivec2(0), texture.size()};
@@ -360,17 +360,17 @@ RenderedFrame Renderer::render(
     result.metadata = metadataOf(config, frame.scene, number, device_.report(), pipelines.averaged);
     for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
 
-    // What is wanted, in pixels from the lower left; tiles begin at multiples of four.
+    // The wanted part, in pixels from the lower left; tiles begin at multiples of four.
     const PixelRect& crop = options.crop;
     const PixelRect wanted = crop.size.x > 0
         ? PixelRect{{crop.origin.x, size.y - crop.origin.y - crop.size.y}, crop.size}
         : PixelRect{glm::ivec2(0), size};
     const int tileSize = chooseTileSize(config, pipelines, firstBlock.size);
-    // What cannot be cut needs its whole block, whatever is wanted of it.
+    // A block that cannot be cut is drawn whole, whatever is wanted of it.
     const bool wholeBlocks = !takesAnyTile(pipelines);
     const auto columns = tileSpans(size, 0, tileSize, wanted), rows = tileSpans(size, 1, tileSize, wanted);
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-        // A band: the part of these tiles that is wanted, rows from the top.
+        // A band: the wanted part of these tiles, rows from the top.
         const int low = std::max(row->from, wanted.origin.y), high = std::min(row->to, wanted.origin.y + wanted.size.y);
         if (low >= high) continue;
         const PixelRect bandRect{{wanted.origin.x, low}, {wanted.size.x, high - low}};
@@ -382,7 +382,7 @@ RenderedFrame Renderer::render(
                 ? block
                 : PixelRect{{column.from, row->from}, {column.to - column.from, row->to - row->from}};
             auto images = drawTile(frame, {block, rect}, options, result);
-            // With the guard band, if that was asked for.
+            // Includes the guard band, if that was asked for.
             const bool isAll = columns.size() == 1 && bandRect.origin == rect.origin && bandRect.size == rect.size;
             const int left = std::max(column.from, wanted.origin.x),
                       right = std::min(column.to, wanted.origin.x + wanted.size.x);

@@ -1,4 +1,4 @@
-// Draws one frame: plans, brings the scene to the GPU, runs every sample, reads back.
+// Draws one frame: plans, uploads the scene, runs every sample, reads back.
 #pragma once
 
 #include "gpu/executor.h"
@@ -21,14 +21,13 @@ struct RenderedFrame;
 struct RenderOptions {
     PixelRect crop;  ///< output pixels from the *upper* left; empty: everything
     bool measure = false;
-    int guard =
-        0;  ///< draw at least so many pixels around the picture, and keep them in the images; even. Not of tiles
-    /// Takes a picture band by band, from the top, as the layers' images, which are then forgotten. Without it the
-    /// frame holds them all.
+    int guard = 0;  ///< draws and keeps at least this many pixels around the picture; even. Not of tiles
+    /// Takes a picture band by band, from the top, as the layers' images. The frame then drops them; without it the
+    /// frame keeps them all.
     std::function<void(const RenderedFrame&)> onBand;
 };
 
-/// Milliseconds of the parts of a frame, as seen from outside.
+/// Wall-clock milliseconds of a part of a frame.
 struct PartTime {
     std::string name;
     double milliseconds;
@@ -39,7 +38,7 @@ struct RenderedFrame {
     Metadata metadata;
     std::vector<PartTime> times;
     bool opaque = false;          ///< the background covers everything
-    std::uint64_t nonFinite = 0;  ///< values that are NaN or infinite, but for depth's background
+    std::uint64_t nonFinite = 0;  ///< values that are NaN or infinite, except depth's background
     View view;                    ///< of the first sample
 };
 
@@ -49,28 +48,28 @@ struct PassTime {
     double milliseconds;
 };
 
-/// The device, the programs and the scenes on it, kept from frame to frame: what is the same in the next frame is
-/// neither made nor brought again.
+/// The device with its programs and scenes, kept from frame to frame: data that stays the same is neither made nor
+/// uploaded again.
 class Renderer {
 public:
     explicit Renderer(const gl::DeviceOptions& device, const std::filesystem::path& shaderFolder = {});
 
-    /// Meshes of the next frame that are under way: it takes from them what it needs.
+    /// Meshes under way for the next frame, which takes what it needs from them.
     void await(std::future<MadeMeshes> meshes) { awaited_ = std::move(meshes); }
 
     RenderedFrame render(
         const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
 
-    /// With RenderOptions::measure: of each pass of the last frame's averaged pipeline, in its order.
+    /// With RenderOptions::measure: the times of the last frame's averaged pipeline, pass by pass.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
-    /// How much of that was reading images back for passes on the CPU, and sending their results on.
+    /// The part of these for reading images back for passes on the CPU, and sending their results on.
     double transferMilliseconds() const { return executor_.transferMilliseconds(); }
     const gl::Device& device() const { return device_; }
     /// The longest side of an image that the device takes.
     int largestTexture() const;
 
 private:
-    /// What all tiles of a frame share.
+    /// The data that all tiles of a frame share.
     struct Frame {
         const RenderConfig& config;
         const LoadedScene& loaded;
@@ -78,25 +77,24 @@ private:
         SceneAt scene;
         SceneFacts facts;
         int number;
-        std::future<MadeMeshes> awaited;  ///< gone with the frame, whatever becomes of it
+        std::future<MadeMeshes> awaited;  ///< ends with the frame, even if that fails
     };
 
     /// Compiles the programs of all samples of a frame.
     void prepare(const Pipeline& pipeline, View view);
-    /// Sees to it that the scene is on the GPU, and its ray tracing tree made where the plan traces rays.
+    /// Uploads the scene, and makes its ray tracing tree where the plan traces rays.
     void bringScene(Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times);
     /// The meshes that are neither on the GPU nor kept for rays.
     MadeMeshes makeMissing(
         const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
-    /// Makes the tree anew where what it is made of has changed; false where it has not.
+    /// Makes the tree anew if its input has changed; false if not.
     bool bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
     ContentKey shownAs(const ContentKey& order) const;
 
     /// Throws Error where the shadow maps of all lights do not fit into a texture.
     void checkShadows(const SceneAt& scene, const std::string& file) const;
 
-    /// Everything that is drawn of a tile: one image per AOV of the config, of the tile's size (and the guard band that
-    /// is to be kept).
+    /// Draws a tile: one image per AOV of the config, of the tile's size (and the guard band to be kept).
     std::vector<Image> drawTile(
         const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
     void drawSamples(
@@ -109,12 +107,12 @@ private:
     std::vector<PassTime> passTimes_;
     std::map<ContentKey, ContentKey> shownAs_;  ///< MadeMeshes::shownAs of all that was made
     std::unique_ptr<RayScene> rayScene_;        ///< only where the plan traces rays, as are:
-    std::map<ContentKey, TriMesh> rayMeshes_;   ///< those that it was made of
-    ContentKey rayKey_;                         ///< of all that it was made of
+    std::map<ContentKey, TriMesh> rayMeshes_;   ///< its input
+    ContentKey rayKey_;                         ///< of all its input
     std::future<MadeMeshes> awaited_;
 };
 
-/// The meshes that a frame needs, made without a device: while one starts.
+/// Makes the meshes that a frame needs without a device, while one starts.
 MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame);
 
 }  // namespace limn

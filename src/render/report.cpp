@@ -13,7 +13,7 @@ const Pass& passOf(const Pipeline& pipeline, const PlannedPass& planned) {
     return pipeline.graph.passes[static_cast<std::size_t>(planned.pass)];
 }
 
-/// Slots whose passes run in a part of the samples, the view's sample not among them.
+/// Slots whose passes run in some samples, but not in the view's.
 std::vector<std::string> restingSlots(const Pipeline& pipeline, const View& view) {
     std::vector<std::string> slots;
     for (const auto& planned : pipeline.plan.passes) {
@@ -24,7 +24,7 @@ std::vector<std::string> restingSlots(const Pipeline& pipeline, const View& view
     return slots;
 }
 
-/// What the cheapest samples leave out, in words; empty where nothing is.
+/// What the cheapest samples leave out, in words; empty if nothing.
 std::string savedSamples(const Pipeline& pipeline, View view) {
     std::vector<std::string> most;
     int count = 0, one = 0;

@@ -1,4 +1,4 @@
-// What `limn plan` shows: the passes of a picture, and facts about it. No GL.
+// The report of `limn plan`: the passes of a picture, and facts about it. No GL.
 #pragma once
 
 #include "render/pipeline.h"

@@ -20,7 +20,7 @@ struct Bounds {
     double diagonal() const { return empty() ? 0 : glm::length(hi - lo); }
 };
 
-/// A direction, or zero where there is none.
+/// The unit vector, or zero for a zero vector.
 inline glm::dvec3 unitOrZero(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);

@@ -17,8 +17,8 @@ enum class Axis { y, z };
 template <>
 inline constexpr std::array<std::string_view, 2> enumNames<Axis> = {"y", "z"};
 
-/// How a texture is read between its texels. Automatic: as nearest where it has at most 64 texels a side, for it was
-/// drawn texel by texel, and cuts no holes, whose outlines would become stairs; else as linear.
+/// How a texture is read between its texels. `automatic` is `nearest` for a texture of at most 64 texels a side that
+/// cuts no holes: it was drawn texel by texel, but outlines of holes would become stairs. Else it is `linear`.
 enum class TextureFilter { automatic, linear, nearest };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<TextureFilter> = {"automatic", "linear", "nearest"};
@@ -27,7 +27,7 @@ enum class LightKind { sun, point, spot };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<LightKind> = {"sun", "point", "spot"};
 
-/// Warm paper grey: what an object without a material is drawn in.
+/// Warm paper grey: the colour of an object without a material.
 inline constexpr Color kPaperGrey{0.604f, 0.571f, 0.521f};  // #cbc6be
 
 /// Parallel lines in the picture.
@@ -42,11 +42,10 @@ struct Material {
     std::string name;
     Color color = kPaperGrey;
     std::string texture;  ///< image file multiplied onto the colour; empty = none
-    std::string cutout;   ///< image file: where its alpha, or without alpha its brightness, is below one half there is
-                          ///< nothing; empty = none
-    glm::dvec2 textureScale{1};   ///< of texture coordinates, before
-    glm::dvec2 textureOffset{0};  ///< is added: 2 shows the image twice, 0.5 moves it by half of itself
-    bool textureRepeats = true;   ///< false: beyond the image its border goes on
+    std::string cutout;  ///< image file: holes where its alpha, or else its brightness, is below one half; empty = none
+    glm::dvec2 textureScale{1};   ///< factor on texture coordinates: 2 shows the image twice
+    glm::dvec2 textureOffset{0};  ///< added after the scale: 0.5 moves the image by half of itself
+    bool textureRepeats = true;   ///< false: the image's border continues beyond it
     TextureFilter textureFilter = TextureFilter::automatic;
     bool vertexColors = true;  ///< multiply the mesh's vertex colours, where it has any, onto the colour
     float shininess = 0;       ///< Blinn–Phong exponent; no highlight at 1 or below
@@ -58,14 +57,14 @@ struct Material {
     Hatch hatch;             ///< lines across it, on the cut faces of sections
 };
 
-/// Are the texels of a material's image seen as squares? `size`: in texels.
+/// Are the texels of a material's image visible as squares? `size`: in texels.
 inline bool hasSharpTexels(const Material& material, glm::ivec2 size) {
     const int side = std::max(size.x, size.y);
     return material.textureFilter == TextureFilter::nearest
         || (material.textureFilter == TextureFilter::automatic && material.cutout.empty() && side > 1 && side <= 64);
 }
 
-/// A plane that cuts the scene open: what lies on its normal's side is taken away.
+/// A plane that cuts the scene open and removes everything on its normal's side.
 struct Section {
     std::string name;  ///< cut only where a config names it; empty: always
     glm::dvec3 point{0};
@@ -92,8 +91,8 @@ inline constexpr std::array<std::string_view, 7> enumNames<UvBoundaryName> = {
 enum class CreaseMethodName { file, normal, chaikin };
 template <>
 inline constexpr std::array<std::string_view, 3> enumNames<CreaseMethodName> = {"file", "normal", "chaikin"};
-/// How a mesh is subdivided. "file" stands for what the mesh's own tags say, and where they say nothing for
-/// edge_and_corner, boundaries and normal.
+/// How a mesh is subdivided. "file" takes the mesh's own tags; without tags it means edge_and_corner, boundaries and
+/// normal.
 struct SubdivisionSettings {
     bool present = false;
     SubdivisionSchemeName scheme = SubdivisionSchemeName::catmullClark;
@@ -104,7 +103,7 @@ struct SubdivisionSettings {
     UvBoundaryName uvBoundary = UvBoundaryName::file;
     CreaseMethodName creaseMethod = CreaseMethodName::file;
 
-    /// What edgeLength says: pixels, or scene units. Nullopt when it is empty or no length.
+    /// The value of edgeLength, in pixels or scene units. Nullopt when it is empty or no length.
     struct EdgeLength {
         double amount;
         bool isPixels;
@@ -115,7 +114,7 @@ struct SubdivisionSettings {
 struct MeshSource {
     std::string name;
     std::string file;       ///< absolute, or relative to the working directory
-    bool perFrame = false;  ///< the file's name is a pattern: #### stands for the number of the frame
+    bool perFrame = false;  ///< the file's name is a pattern: #### stands for the frame number
     std::string creases;    ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;
@@ -137,9 +136,9 @@ struct Instance {
     glm::dvec3 translate{0};
     glm::dvec3 rotate{0};  ///< degrees, about x, then y, then z
     glm::dvec3 scale{1};
-    std::vector<double> matrix;  ///< 16 numbers in row order, instead of the three
+    std::vector<double> matrix;  ///< 16 numbers in row order; replaces translate, rotate and scale
     bool lines = true;           ///< are lines drawn?
-    OptionalColor lineColor;     ///< goes before the material's, as does:
+    OptionalColor lineColor;     ///< overrides the material's, as does:
     double creaseAngle = 0;      ///< degrees; 0 = as the material says
 
     glm::dmat4 transform() const;
@@ -172,7 +171,7 @@ struct Light {
     glm::dvec3 position{0, 3, 0};      ///< point and spot
     Color color{1, 1, 1};
     double intensity = 1;
-    double range = 0;     ///< scene units at which a point or spot light has fallen to half; 0 = no falloff
+    double range = 0;     ///< scene units at which a point or spot light falls to half; 0 = no falloff
     double angle = 45;    ///< degrees, full cone of a spot
     double blend = 0.15;  ///< part of the cone over which a spot fades out
     ShadowSettings shadow;

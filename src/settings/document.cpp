@@ -4,13 +4,13 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
-// The parser asserts what it then reports as an error: a slip in a file must not end a debug build.
+// The parser asserts before it reports an error: a slip in a file must not end a debug build.
 #define TOML_ASSERT(expr) static_cast<void>(0)
-// Arrays and tables within values; parser, conversion and destructors go down by recursion.
+// The depth of arrays and tables within values: parser, conversion and destructors recurse.
 #define TOML_MAX_NESTED_VALUES 32
-// Its table of blanks (3.3) calls U+00A1 to U+0499 and others "unreachable": for the letter after a backslash in a long
-// string, and for one outside quotes, that is undefined behaviour. Those letters are no blanks; this header is read
-// first, with that answer.
+// The table of blanks in toml++ 3.3 calls U+00A1 to U+0499 and others "unreachable". For the letter after a backslash
+// in a long string, and for one outside quotes, that is undefined behaviour. Those letters are no blanks: this header
+// is read first, with "unreachable" as false.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
@@ -24,8 +24,8 @@
 namespace limn {
 namespace {
 
-/// Throws Error at a key of more parts than any file needs: the parser bounds the depth of values, but each dot of a
-/// key nests a table too, and destructors go down by recursion.
+/// Throws Error at a key of more parts than any file needs. The parser bounds the depth of values, but each dot of a
+/// key nests a table too, and destructors recurse.
 void refuseLongKeys(std::string_view text, const std::string& name) {
     constexpr int mostDots = 32;
     int dots = 0;
@@ -123,7 +123,7 @@ struct Reading {
 };
 
 Node readLayered(const std::filesystem::path& path, Reading& reading, const Location& from) {
-    // Files that include others twice over double at each step.
+    // Where each file includes the next one twice, the count doubles at each step.
     constexpr std::size_t mostFiles = 1000;
     if (reading.files.size() == mostFiles)
         throw Error(
@@ -165,7 +165,7 @@ Node readLayered(const std::filesystem::path& path, Reading& reading, const Loca
     return layered;
 }
 
-/// Does a letter beyond ASCII stand at a place of a UTF-8 text? Columns count letters.
+/// Is the letter at a place of a UTF-8 text beyond ASCII? Columns count letters.
 bool isBeyondAscii(std::string_view text, const Location& where) {
     for (int line = 1; line < where.line; ++line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
     const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; };
@@ -196,7 +196,7 @@ Node readDocument(const std::filesystem::path& path, std::vector<std::filesystem
     return document;
 }
 
-/// The value of KEY=VALUE; it and whatever stands inside come from the command line.
+/// The value of KEY=VALUE, with the command line as its place.
 static Node settingValue(const std::string& text, const Location& where) {
     Node value;
     try {
@@ -204,7 +204,7 @@ static Node settingValue(const std::string& text, const Location& where) {
     } catch (const Error&) {
         value.value = text;  // bare words and units: toon, 2px, #1a1a1a
     }
-    // Whatever stands inside came from the command line too.
+    // Nested values came from the command line too.
     const auto setPlace = [&](auto&& self, Node& node) -> void {
         node.where = node.keyWhere = where;
         if (auto* array = std::get_if<Node::Array>(&node.value))
@@ -243,7 +243,7 @@ void applySetting(Node& document, std::string_view setting) {
                     "count from 0, for example edges.0.width");
             node = &(*array)[static_cast<std::size_t>(*index)];
         } else {
-            // A technique may stand there by its name alone.
+            // A technique may be given by its name alone.
             if (const std::string* name = node->text())
                 *node = Node{
                     node->where, Node::Table{{"technique", Node{node->where, *name, node->where}}}, node->keyWhere};
@@ -266,7 +266,7 @@ void applySetting(Node& document, std::string_view setting) {
 
 std::filesystem::path pathIn(const Node& node) {
     const std::filesystem::path path = *node.text();
-    // What was typed on the command line counts from where one stands.
+    // Paths on the command line are relative to the working directory.
     if (node.where.file.starts_with("--set ")) return path.lexically_normal();
     return (std::filesystem::path(node.where.file).parent_path() / path).lexically_normal();
 }

@@ -479,7 +479,7 @@ const FieldType& fieldType<glm::dmat4>() {
     return type;
 }
 
-/// Arrays reach shaders only.
+/// Arrays only reach shaders; no config sets them.
 template <class A>
 constexpr FieldType arrayType(std::string_view glsl) {
     return {"list", 0, nullptr, [](const void*) { return plain("list"); }, nullptr, nullptr, glsl, sizeof(A), 16,
@@ -573,7 +573,7 @@ void readTrack(const Node& node, const Field& field, void* object, std::vector<T
             return fail(pair, *problem, "");
         Keyframe key{pair.array()[0].number(), {}};
         field.type().toNumbers(field.member(object), key.value.data());
-        // The second number of a length is its unit: there is no way from 2 pixels to 5 % in between.
+        // The second number of a length is its unit: nothing lies between 2 pixels and 5 %.
         const bool hasUnit = &field.type() == &fieldType<Length>() || &field.type() == &fieldType<PictureLength>();
         if (hasUnit && !track.keyframes.empty() && track.keyframes.front().value[1] != key.value[1])
             return fail(pair, "has keys in different units", "write all of them in one unit");

@@ -1,9 +1,8 @@
 // Parameters, declared once.
 //
-// A settings struct has a table of Fields beside it; the default of a parameter is its member initializer. From the one
-// table come: reading from a config, range and type errors, "did you mean", --set, the text of `limn techniques`, the
-// parameter reference, keyed values over frames, the GLSL uniform block with its std140 packing, and the axes a study
-// may sweep.
+// A settings struct has a table of Fields beside it; the default of a parameter is its member initializer. That one
+// table gives: reading from a config, range and type errors, "did you mean", --set, the text of `limn techniques`, the
+// parameter reference, keyframes, the GLSL uniform block with its std140 packing, and the axes a study may sweep.
 //
 //     struct Params { float radius = 0.5f; int directions = 6; };
 //     constexpr Field kParams[] = {
@@ -44,7 +43,7 @@ struct FieldInfo {
     double max = std::numeric_limits<double>::infinity();
     bool accuracy = false;  ///< buys accuracy with time: a study may sweep it
     bool required = false;  ///< has no default
-    bool keyable = true;    ///< may be keyed over frames, where its type can be interpolated
+    bool keyable = true;    ///< may have keyframes, where its type can be interpolated
 };
 
 struct Field;
@@ -52,7 +51,7 @@ struct Field;
 /// Everything the tables need to know about a member's type.
 struct FieldType {
     std::string_view name;  ///< as people call it: "number", "colour" ...
-    int components;         ///< numbers that can be keyed; 0 = cannot be keyed
+    int components;         ///< numbers in a keyframe; 0 = cannot have keyframes
     /// Reads a node into the member. Returns what is wrong, in words that follow "NAME ", or nothing.
     std::optional<std::string> (*read)(void* member, const Node& node, const Field& field);
     std::string (*text)(const void* member);  ///< as it would be written in TOML
@@ -139,7 +138,7 @@ constexpr Field elementField(std::string_view name, FieldInfo info, std::string_
         [](void* object) -> void* { return &(static_cast<typename Traits::Struct*>(object)->*Member)[I]; }};
 }
 
-/// Tables one after the other, as one.
+/// Joins tables into one.
 template <std::size_t... N>
 constexpr auto joinFields(const std::array<Field, N>&... tables) {
     std::array<Field, (N + ...)> all{};
@@ -161,7 +160,6 @@ std::string rangeText(const Field& field);
 std::string typeText(const Field& field);
 
 // --- Values over frames
-// ---------------------------------------------------------------------------------------------------------
 
 enum class Interpolation { constant, linear, smooth };
 template <>
@@ -172,7 +170,7 @@ struct Keyframe {
     std::array<double, 4> value{};
 };
 
-/// The keys of one field, sorted by frame. Held before the first key and after the last.
+/// The keyframes of one field, sorted by frame. Values are held before the first keyframe and after the last.
 struct Track {
     const Field* field = nullptr;
     Interpolation interpolation = Interpolation::linear;
@@ -182,7 +180,7 @@ struct Track {
 /// Writes the tracks' values at `frame` into the object.
 void applyTracks(void* object, std::span<const Track> tracks, double frame);
 
-/// A settings struct, some of whose fields may move over frames.
+/// A settings struct whose fields may have keyframes.
 template <class T>
 struct Keyed {
     T base{};
@@ -197,11 +195,10 @@ struct Keyed {
 };
 
 // --- Reading
-// --------------------------------------------------------------------------------------------------------------------
 
-/// Reads the entries of `table` that `schema` names into `object`; keyed entries go to `tracks`, and the object then
-/// holds their first key's value. Every problem is added to `errors` (unknown keys too, except those in `alsoKnown`),
-/// with place and remedy. `what` names the table in messages: "[ao]", "[[light]]".
+/// Reads the entries of `table` that `schema` names into `object`. Keyframes go to `tracks`; the object then holds the
+/// first keyframe's value. Adds every problem to `errors`, with place and remedy: unknown keys too, except those in
+/// `alsoKnown`. `what` names the table in messages: "[ao]", "[[light]]".
 void readFields(const Node& table, Schema schema, void* object, std::vector<Track>* tracks, std::string_view what,
     ErrorCollector& errors, std::span<const std::string_view> alsoKnown = {}, ExitCode code = ExitCode::usage);
 

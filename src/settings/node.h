@@ -1,5 +1,4 @@
-// A parsed TOML value with the place it came from. Plain data, so that every layer can read settings without the TOML
-// library.
+// A parsed TOML value with its place. Plain data: every layer can read settings without the TOML library.
 #pragma once
 
 #include "base/error.h"
@@ -18,7 +17,7 @@ struct Node {
 
     Location where;
     std::variant<bool, std::int64_t, double, std::string, Array, Table> value = Table{};
-    Location keyWhere{};  ///< where the key of this value stands; empty for array elements
+    Location keyWhere{};  ///< place of this value's key; empty for array elements
 
     bool isTable() const { return std::holds_alternative<Table>(value); }
     bool isArray() const { return std::holds_alternative<Array>(value); }

@@ -22,7 +22,7 @@ std::string declaration(const UniformBlock& block, std::string_view instance) {
 
 bool isPartOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Does a text have `name` as a whole word?
+/// Does the text contain `name` as a whole word?
 bool mentions(std::string_view text, std::string_view name) {
     for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
         const std::size_t end = at + name.size();
@@ -68,7 +68,7 @@ HandedOn handOn(const UniformBlock& block, std::string_view fragmentSource) {
     std::string assignments, inputs, members, arguments;
     for (const auto& member : block.members) {
         if (!mentions(fragmentSource, block.name + "." + member.name)) continue;
-        // There are no inputs of type bool.
+        // GLSL has no inputs of type bool.
         const bool isBool = member.type == "bool";
         const std::string type = isBool ? "int" : member.type, sent = block.name + "_" + member.name;
         result.vertex += fmt::format("flat out {} {};\n", type, sent);

@@ -7,9 +7,9 @@
 
 namespace limn {
 
-/// Cuts the instances of these orders that a section reaches; others are shown as the whole mesh. Takes whole meshes
-/// from `made`, adds the cut ones under their orders' keys, and removes whole meshes that nothing shows any more. Warns
-/// of outlines that do not close.
+/// Cuts the instances of these orders that a section reaches; the others show the whole mesh. Takes whole meshes from
+/// `made`, adds the cut ones under their orders' content keys, and removes whole meshes that nothing shows any more.
+/// Warns of outlines that do not close.
 void cutOpen(const SceneAt& scene, const MeshNeeds& needs, std::span<const MeshOrder* const> orders, MadeMeshes& made);
 
 }  // namespace limn

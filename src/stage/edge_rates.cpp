@@ -21,12 +21,12 @@ struct Viewer {
     double pixelsPerUnit;  ///< at unit depth; orthographic: anywhere
     glm::dvec2 low, high;  ///< of the picture, at unit depth
 
-    /// Pixels that an edge spans however it is turned, or 0 where it cannot be seen.
+    /// Pixels that an edge spans, whatever its direction, or 0 where it is not visible.
     double pixels(const glm::dvec3& a, const glm::dvec3& b) const {
         const glm::dvec3 p(viewFromMesh * glm::dvec4(a, 1)), q(viewFromMesh * glm::dvec4(b, 1));
         const double length = glm::distance(p, q);
-        // The faces on the edge reach about as far as the edge is long: only if all of that is out of sight may it stay
-        // coarse.
+        // The faces on the edge reach about as far as the edge is long. It may stay coarse only if all of that is out
+        // of sight.
         const double room = 2 * length;
         const glm::dvec3 middle = (p + q) * 0.5;
         if (orthographic) {
@@ -39,14 +39,14 @@ struct Viewer {
         if (middle.x < low.x * reach - room || middle.x > high.x * reach + room || middle.y < low.y * reach - room
             || middle.y > high.y * reach + room)
             return 0;
-        // What is in the picture at that distance is no nearer along the axis than this, whatever lies beside the
-        // camera or behind it.
+        // Nothing in the picture at that distance is nearer along the axis than this, whatever lies beside or behind
+        // the camera.
         const double corner = 1 / std::sqrt(1 + std::max(glm::dot(low, low), glm::dot(high, high)));
         const double nearest =
             std::max({std::min(-p.z, -q.z), (glm::length(middle) - length / 2) * corner, 0.05 * length});
         return length * pixelsPerUnit / nearest;
     }
-    /// The most pixels that a unit of a mesh within a sphere can span.
+    /// The most pixels that one unit of a mesh within a sphere can span.
     double pixelsPerUnitOf(const glm::dvec3& centre, double radius) const {
         const double stretch =
             std::max({glm::length(viewFromMesh[0]), glm::length(viewFromMesh[1]), glm::length(viewFromMesh[2])});
@@ -56,7 +56,7 @@ struct Viewer {
     bool operator==(const Viewer&) const = default;
 };
 
-/// How the cameras of all declared frames see an instance, without repeating what is there.
+/// The viewers of an instance, from the cameras of all declared frames, without repetitions.
 std::vector<Viewer> findViewers(const LoadedScene& loaded, std::size_t number, const FrameRequest& request) {
     std::vector<Viewer> viewers;
     const FrameRange frames =
@@ -74,7 +74,7 @@ std::vector<Viewer> findViewers(const LoadedScene& loaded, std::size_t number, c
         const double stretch = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
         const Viewer viewer{toView, stretch, view.orthographic, 1 / view.rayScale.x, view.rayOffset,
             size * view.rayScale + view.rayOffset};
-        // Frames that differ follow each other: what stands still is met again at once.
+        // Only neighbouring frames are compared: that finds everything that stands still.
         if (viewers.empty() || viewers.back() != viewer) viewers.push_back(viewer);
     }
     return viewers;
@@ -102,7 +102,7 @@ std::shared_ptr<EdgeViewers> makeEdgeViewers() { return std::make_shared<EdgeVie
 
 namespace {
 
-/// Of some instances together.
+/// The viewers of several instances.
 std::vector<Viewer> viewersOf(
     const LoadedScene& loaded, std::span<const std::size_t> instances, const FrameRequest& request) {
     std::vector<Viewer> all;

@@ -1,4 +1,4 @@
-// What effects may know about a scene at a frame.
+// Facts about a scene at a frame, for effects.
 #pragma once
 
 #include "stage/scene_at.h"
@@ -21,7 +21,7 @@ struct SceneFacts {
     bool lineRecords = false;   ///< some object or material says something about its lines
     bool sections = false;      ///< something is cut open
     bool hatched = false;       ///< and its cut faces are hatched
-    int triangleBits = 0;       ///< of a number that names an instance and its triangle, where 32 bits can; else 0
+    int triangleBits = 0;       ///< bits of a triangle's number, beside its instance's in 32 bits; 0 if both do not fit
 };
 
 SceneFacts sceneFacts(const SceneAt& scene);

@@ -14,7 +14,7 @@ void addVector(KeyBuilder& key, const glm::dvec3& v) { key.add(v.x).add(v.y).add
 
 }  // namespace
 
-// Structured bindings name every member: one that is added to a struct and forgotten here does not compile.
+// Structured bindings name every member: a new member that is forgotten here does not compile.
 
 ContentKey materialKey(const Material& material, const ImageKeys& images) {
     const auto& [name, color, texture, cutout, scale, offset, repeats, filter, vertexColors, shininess, specular, lines,
@@ -24,7 +24,8 @@ ContentKey materialKey(const Material& material, const ImageKeys& images) {
     key.add(name);
     addColor(key, color);
     for (const auto& file : {texture, cutout}) {
-        // Content, not its place: a project is the same in every folder. What cannot be read has a name alone.
+        // The content counts, not its place: a project is the same in every folder. A file that cannot be read counts
+        // by name.
         if (const auto known = images.find(file); known != images.end())
             key.add(known->second.low).add(known->second.high);
         else

@@ -1,4 +1,4 @@
-// Content keys of what a scene is made of: what has the same key at two frames need not be made, uploaded or drawn
+// Content keys of a scene's parts: a part with the same content key at two frames need not be made, uploaded or drawn
 // again.
 #pragma once
 
@@ -11,16 +11,16 @@
 
 namespace limn {
 
-/// The keys of image files, by their names.
+/// The content keys of image files, by file name.
 using ImageKeys = std::map<std::string, ContentKey>;
 
-/// Of everything about a material that a picture can show, the bytes of its images among it.
+/// Covers everything about a material that a picture can show, the bytes of its images included.
 ContentKey materialKey(const Material& material, const ImageKeys& images);
-/// Of the material's images alone; of none where it has none.
+/// Covers the material's images alone; empty if it has none.
 ContentKey textureKey(const Material& material, const ImageKeys& images);
-/// Of everything about a light.
+/// Covers everything about a light.
 ContentKey lightKey(const Light& light);
-/// Of how a mesh is to be subdivided; of the rates of its edges only that there are some.
+/// Adds how a mesh is to be subdivided; of its edge rates only that there are some.
 void addSubdivision(KeyBuilder& key, const SubdivisionOptions& options);
 
 }  // namespace limn

@@ -27,7 +27,7 @@ Bounds instanceBounds(const PolyMesh& mesh, const glm::dmat4& worldFromMesh) {
     return bounds;
 }
 
-/// Reads one mesh and what belongs to it.
+/// Reads one mesh and its tags and materials.
 MeshFile readMesh(const MeshSource& source, int frame) {
     const std::filesystem::path path = source.at(frame);
     MeshFile mesh = meshFormat(path).read(path);
@@ -51,10 +51,10 @@ MeshFile readMesh(const MeshSource& source, int frame) {
     return mesh;
 }
 
-/// Exporters name a leaf's image once: what its alpha cuts out of the colours is not there. Of the materials that a
-/// mesh file brings along; a scene says itself what cuts holes.
+/// Lets a texture's alpha mask cut holes too, since exporters name a leaf's image once. For materials of mesh files
+/// only: a scene names its cutouts itself.
 void adoptAlpha(MeshFile& mesh) {
-    std::vector<Error> told;  // by whoever draws or checks the image
+    std::vector<Error> told;  // ignored: drawing or checking the image reports them
     for (auto& material : mesh.materials)
         collect(told, [&] {
             if (material.cutout.empty() && !material.texture.empty() && isAlphaMask(material.texture))
@@ -69,9 +69,9 @@ void warnOf(const MeshFile& mesh) {
             warning.count > 1 ? fmt::format(" ({} times)", warning.count) : "");
 }
 
-/// Names the materials that the faces of a mesh ask for, and nobody has.
+/// Warns of materials that a mesh's faces ask for and nobody has.
 void warnOfMaterials(const MeshFile& mesh, const Scene& scene) {
-    if (mesh.materials.empty()) return;  // there is no library, or that it is missing has been said
+    if (mesh.materials.empty()) return;  // no library, or one already reported missing
     std::vector<std::string> known, ofScene;
     for (const auto& material : mesh.materials) known.push_back(material.name);
     for (const auto& material : scene.materials) ofScene.push_back(material.base.name);
@@ -109,7 +109,7 @@ struct MeshLibrary::State {
         return nullptr;
     }
 
-    /// Reads these meshes at a frame, in parallel. Nothing is kept should one of them fail.
+    /// Reads these meshes at a frame, in parallel. If one fails, none is kept.
     void read(const std::vector<std::size_t>& wanted, int frame) {
         std::vector<MeshFile> meshes(wanted.size());
         std::vector<ImageKeys> shown(wanted.size());

@@ -16,7 +16,7 @@ const MeshSource& sourceOf(const LoadedScene& loaded, const MeshOrder& order) {
     return loaded.scene.meshes[order.mesh];
 }
 
-/// The key of an order's whole mesh.
+/// The content key of an order's whole mesh.
 ContentKey wholeKey(const LoadedScene& loaded, const SceneAt& scene, const FrameRequest& request,
     const MeshNeeds& needs, const MeshOrder& order) {
     const MeshFile& file = *scene.meshes[order.mesh];
@@ -30,7 +30,7 @@ ContentKey wholeKey(const LoadedScene& loaded, const SceneAt& scene, const Frame
     return key.key();
 }
 
-/// Key of an order that may be cut: whole mesh, instance's transform, all sections.
+/// Content key of an order that may be cut: whole mesh, instance's transform, all sections.
 ContentKey cutKey(const SceneAt& scene, const MeshOrder& order) {
     const glm::dmat4& world = scene.instances[order.instances.front()].worldFromMesh;
     KeyBuilder key;
@@ -85,7 +85,7 @@ MeshOrders orderMeshes(
 MadeMeshes makeMeshes(const LoadedScene& loaded, const SceneAt& scene, const FrameRequest& request,
     const MeshOrders& orders, const std::function<bool(const MeshOrder&)>& isWanted) {
     const auto begin = std::chrono::steady_clock::now();
-    // Orders to be cut share what is cut.
+    // Orders to be cut share their whole meshes.
     std::map<ContentKey, const MeshOrder*> wanted;
     std::vector<const MeshOrder*> cuts;
     for (const auto& order : orders.orders) {

@@ -23,14 +23,14 @@ public:
 
     std::uint32_t named(const std::string& name) const { return byName_.at(name); }
 
-    /// Of a mesh's own material: the scene's of that name, else the MTL's, else the default.
+    /// The number of a mesh's own material: the scene's of that name, else the MTL's, else the default.
     std::uint32_t ofMesh(std::size_t mesh, const std::string& name) {
         if (const auto it = byName_.find(name); it != byName_.end()) return it->second;
         const auto [it, isNew] = byMesh_.emplace(std::pair(mesh, name), 0);
         if (isNew)
             for (const auto& material : meshes_[mesh]->materials)
                 if (material.name == name) it->second = add(material);
-        // Colours of vertices are all the colour there is, where no material says more.
+        // Without a material, vertex colours are the only colour.
         if (isNew && it->second == 0 && !meshes_[mesh]->poly.colors.empty())
             it->second = add({.name = name, .color = {1, 1, 1}});
         return it->second;
@@ -49,7 +49,7 @@ private:
     std::map<std::pair<std::size_t, std::string>, std::uint32_t> byMesh_;
 };
 
-/// The number of what an object and its material say about lines; the object goes first.
+/// The number of an object's and its material's line record; the object overrides the material.
 std::uint32_t lineRecord(SceneAt& scene, const Instance& object, const Material& material) {
     const LineRecord both{object.lines && material.lines,
         object.lineColor.given ? object.lineColor : material.lineColor,
@@ -64,7 +64,7 @@ std::uint32_t lineRecord(SceneAt& scene, const Instance& object, const Material&
     return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
 }
 
-/// The sections that are asked for, and their materials.
+/// Collects the requested sections and their materials.
 std::vector<std::uint32_t> resolveSections(
     const Scene& scene, const FrameRequest& request, SceneAt& at, std::vector<Material>& materials) {
     std::vector<std::string> names;
@@ -98,9 +98,9 @@ std::vector<std::uint32_t> resolveSections(
     return numbers;
 }
 
-/// How many triangles a mesh may become, at most. A face of n corners becomes n grids of 2^(level - 1) squares each
-/// way; one that meets itself is first cut into n - 2 triangles, of three such grids each. Rates of edges are bounded
-/// by the level.
+/// The most triangles that a mesh may become. A face of n corners becomes n grids of 2^(level - 1) squares each way;
+/// one that meets itself is first cut into n - 2 triangles, of three such grids each. Rates of edges are bounded by the
+/// level.
 std::uint64_t mostTriangles(const MeshSource& source, const PolyMesh& poly) {
     return std::uint64_t{poly.cornerPosition.size()}
     << (source.subdivision.present ? 2 * source.subdivision.level + 1 : 0);

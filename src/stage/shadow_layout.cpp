@@ -5,7 +5,7 @@
 namespace limn {
 
 ShadowLayout shadowLayout(std::span<const Light> lights) {
-    constexpr int kRow = 8192;  // maps stand side by side up to here, then in the next row
+    constexpr int kRow = 8192;  // texels in a row of maps; further maps go in the next row
     ShadowLayout layout;
     glm::ivec2 pen(0);
     int rowHeight = 0;

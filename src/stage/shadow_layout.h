@@ -1,4 +1,4 @@
-// Where the shadow maps of all lights lie in the one texture that holds them.
+// The layout of all lights' shadow maps in one texture.
 #pragma once
 
 #include "scene/scene.h"

@@ -1,14 +1,14 @@
-// The best that a depth buffer allows: rays against the buffer's own triangles.
+// The best result that a depth buffer allows: rays against the buffer's own triangles.
 #pragma once
 
 #include "rays/ray_scene.h"
 
 namespace limn {
 
-/// A depth buffer as an open shell: neighbouring pixels are joined into triangles where one lies on the other's tangent
-/// plane, to within one width of a pixel (the sides of a corner are seen at different slants, and only one of them lies
-/// near); elsewhere nothing is there. `depth` and `normals` (view space, three per pixel, rows from the upper left) are
-/// of `view`'s region.
+/// A depth buffer as an open shell. Neighbouring pixels become triangles where one lies on the other's tangent plane,
+/// to within one width of a pixel; elsewhere there is nothing. (One is enough: the sides of a corner have different
+/// slants, and only one of them lies near.) `depth` and `normals` (view space, three per pixel, rows from the upper
+/// left) are of `view`'s region.
 std::unique_ptr<RayScene> buildShell(
     const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals);
 

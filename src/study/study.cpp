@@ -111,7 +111,7 @@ private:
         return method;
     }
 
-    /// A config of nothing but this section.
+    /// A config of nothing but this table.
     static Node documentOf(const Node& ao) { return Node{ao.where, Node::Table{{"ao", ao}}, {}}; }
 
     void readAxes(const Node& tune, StudyMethod& method) {
@@ -134,7 +134,7 @@ private:
                 checkValue(method, a, v, places[a]->array()[v]);
     }
 
-    /// A config with this value, and the first of every other axis, must be one that can be read.
+    /// A config with this value, and the first of every other axis, must be readable.
     void checkValue(const StudyMethod& method, std::size_t axis, std::size_t value, const Node& at) {
         ErrorCollector found;
         found.run([&] {
@@ -150,7 +150,7 @@ private:
     ErrorCollector errors_;
 };
 
-/// What is known of one camera.
+/// The data of one camera.
 struct Shot {
     std::string camera;
     std::vector<float> truth, shell;  ///< visibility; negative on the background
@@ -173,7 +173,7 @@ Deviation compare(const std::vector<float>& picture, const std::vector<float>& t
     return {std::sqrt(squares / n), sum / n, *rank};
 }
 
-/// Runs the methods in one place.
+/// Runs the methods at one place.
 class PlaceRunner {
 public:
     PlaceRunner(Session& session, const StudySettings& settings, const StudyPlace& place)
@@ -194,7 +194,8 @@ public:
         return row;
     }
 
-    /// The settings with the least error over the cameras to tune on: one axis after the other, until nothing improves.
+    /// Finds the settings with the least error over the tuning cameras: one axis after the other, until nothing
+    /// improves.
     std::vector<std::string> tune(const StudyMethod& method) {
         std::vector<std::size_t> at(method.axes.size(), 0);
         const auto settings = [&] {
@@ -213,7 +214,7 @@ public:
                 squares += row.truth.rmse * row.truth.rmse;
                 milliseconds = std::max(milliseconds, row.milliseconds);
             }
-            // Too slow is worse than any error, and slower is worse than that.
+            // Too slow is worse than any error; slower is worse still.
             const double value = method.milliseconds > 0 && milliseconds > method.milliseconds
                 ? 1e3 + milliseconds
                 : std::sqrt(squares / static_cast<double>(place_.tune.size()));
@@ -280,7 +281,7 @@ private:
         for (std::size_t i = 0; i < shot.truth.size(); ++i)
             if (!std::isfinite(depth[i])) shot.truth[i] = -1;
 
-        // The same rays against what the depth buffer shows, guard band and all.
+        // Traces the same rays against the depth buffer's shell, guard band included.
         RenderOptions wide;
         wide.guard =
             static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
@@ -294,7 +295,7 @@ private:
         return shots_[camera] = std::move(shot);
     }
 
-    /// Rays from the picture's own pixels, rows from the upper left.
+    /// Traces rays from the picture's own pixels, rows from the upper left.
     std::vector<float> traceShell(const RayScene& shell, const RenderedFrame& seen) const {
         const glm::ivec2 size = seen.view.region.size;
         const auto pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);

@@ -1,5 +1,4 @@
-// What accuracy costs in time: settings of ambient occlusion swept over scenes and cameras, against the ray-traced
-// truth.
+// Accuracy against time: sweeps settings of ambient occlusion over scenes and cameras, against the ray-traced truth.
 //
 // A study file:
 //
@@ -70,9 +69,9 @@ struct StudyRow {
     std::string place, camera, method, settings;  ///< settings: what the tuner chose
     Deviation truth;                              ///< against rays in the scene
     double shellRmse = 0;                         ///< against rays in the depth buffer's own triangles
-    double milliseconds = 0;                      ///< of the ao and filter passes, transfers left out
-    double transferMilliseconds = 0;  ///< of reading images back for passes on the CPU, and sending results on
-    double treeMilliseconds = 0;      ///< of building the ray tracing tree
+    double milliseconds = 0;                      ///< of the ao and filter passes, without transfers
+    double transferMilliseconds = 0;  ///< for reading images back for passes on the CPU, and sending results on
+    double treeMilliseconds = 0;      ///< for building the ray tracing tree
     double microsecondsPerPixel = 0;
     Image picture, truthPicture, shellPicture;  ///< visibility; 1 on the background
 };
@@ -80,7 +79,7 @@ struct StudyRow {
 /// Reads a study file. Every problem at once (Errors).
 Study readStudy(const std::filesystem::path& path);
 
-/// Runs it; each row is handed over as soon as it is known.
+/// Runs the study and hands each row over as soon as it is known.
 void runStudy(Session& session, const Study& study, const std::function<void(const StudyRow&)>& report);
 
 }  // namespace limn

@@ -43,7 +43,7 @@ void main() {
         return;
     }
 #endif
-    // Each ring is turned against the last by 52 degrees, which brings no two of them into line.
+    // Each ring turns by 52 degrees against the last, so that no two of them line up.
     vec2 turned = NEIGHBOURS[0];
     for (int ring = RINGS; ring > 0; --ring) {
         float reach = params.reach * float(ring) / float(RINGS);
@@ -55,11 +55,11 @@ void main() {
             bool someAbsent = isBackground(one) || isBackground(other) || isBackground(here);
             float p = someAbsent || offset == ivec2(0) ? 0.0 : (here - betweenOpposite(one, other)) * params.perRange;
 #ifdef ABSENCE_IS_FAR
-            // A surface that ends before nothing is a line; nothing beside nothing is none.
+            // A surface that ends before the background is a line; background beside background is none.
             bool allAbsent = isBackground(one) && isBackground(other) && isBackground(here);
             if (someAbsent) p = allAbsent ? 0.0 : 1.0 / params.perBleach;
 #endif
-                // For ambient shading a neighbour's absence tells nothing about how the surface bends.
+                // For ambient shading an absent neighbour tells nothing about the surface's bend.
 #ifdef ALL_BENDS
             p = abs(p);
 #endif

@@ -6,7 +6,7 @@
 #include "lib/slices.glsl"
 #include "effects/ao/horizon.glsl"
 
-// Horizons lower than this above the surface (sine) are what depths and normals are rounded to.
+// Horizons below this (sine above the surface) are rounding of depths and normals.
 const float LEAST_RISE = 1e-4;
 
 void main() {

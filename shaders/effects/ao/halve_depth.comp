@@ -1,4 +1,4 @@
-// Every second depth each way: of pixels, not of means of pixels, so that each is the depth of a real surface.
+// Every second depth each way. It takes pixels, not means of pixels, so that each depth is that of a real surface.
 #include "lib/space.glsl"
 
 void main() {

@@ -8,12 +8,12 @@
 
 #ifdef UNIFORM_WEIGHT
 // Hidden part along one direction: sin h − sin t, where h is the highest rise of the depth image above the picture's
-// plane and t that of the surface itself, raised by the bias. What rises higher counts as much as its own distance lets
-// it.
+// plane and t that of the surface itself, raised by the bias. Each higher rise counts with the falloff of its own
+// distance.
 float hiddenAlong(ivec2 pixel, vec2 direction, vec3 position, vec3 normal, float jitter) {
     float farthest = params.radius / pixelFootprint(-position.z);
     float count = min(float(STEPS), max(ceil(farthest), 1.0));
-    // The surface's own rise: moving by (direction, z) stays on it where the normal is at right angles to that. z is
+    // The surface's own rise: a step (direction, z) stays on the surface if it is perpendicular to the normal. z is
     // towards the viewer.
     float rise = -dot(normal.xy, direction) / max(normal.z, 1e-4);
     float cosT = inversesqrt(1.0 + rise * rise), sinT = rise * cosT;
@@ -63,7 +63,7 @@ void main() {
     float open = 0.0, whole = 0.0;
 #endif
     for (int i = 0; i < DIRECTIONS; ++i) {
-        // Directions start at different places, or their rings would show.
+        // Directions start at different places, since their rings would show otherwise.
         float jitter = fract(random.y + float(i) * 0.618034);
 #ifdef UNIFORM_WEIGHT
         hidden += hiddenAlong(pixel, turn, position, surface, jitter);

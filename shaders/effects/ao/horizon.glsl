@@ -1,5 +1,5 @@
-// The horizon of the depth image along a slice, for techniques whose params have radius and stepGrowth and that define
-// STEPS. Include after lib/occlusion.glsl and lib/slices.glsl.
+// The horizon of the depth image along a slice. For techniques that define STEPS and whose params have radius and
+// stepGrowth. Include after lib/occlusion.glsl and lib/slices.glsl.
 
 // Open part of one side of a slice (side: 1 or -1), up to the highest thing within the radius that rises more than
 // `leastRise` (sine) above the surface.
@@ -18,13 +18,13 @@ float openSide(Slice s, ivec2 pixel, vec3 position, float side, float leastRise,
         vec3 offset = viewPosition(tap, load(depth, tap).r) - position;
         float squared = dot(offset, offset);
         vec2 at = inSlice(s, offset);
-        // Without branches: what lies beyond the radius, the background as well, does not rise at all.
+        // Without branches: taps beyond the radius, and the background, have no rise.
         float rise = squared <= params.radius * params.radius ? at.y * inversesqrt(max(dot(at, at), 1e-30)) : 0.0;
 #if FALLOFF == FALLOFF_NONE
         horizon = max(horizon, rise);
 #else
         if (rise <= horizon) continue;
-        // What rises above the horizon so far hides the angles between, as much as its distance lets it.
+        // A rise above the horizon so far hides the angles between, with the falloff of its distance.
         open -= falloffWeight(squared / (params.radius * params.radius))
             * max(openArc(s, side, horizon) - openArc(s, side, min(rise, 1.0)), 0.0);
         horizon = rise;

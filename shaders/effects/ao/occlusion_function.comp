@@ -29,14 +29,14 @@ void main() {
 #endif
     float hidden = 0.0;
     for (int i = 0; i < SAMPLES; ++i) {
-        // The cardinal and intercardinal directions; the paper's random distances, drawn so that each direction gets
+        // The cardinal and intercardinal directions. The paper's random distances are drawn so that each direction gets
         // every distance in turn.
         float angle = 6.283185307 * (float(i) / float(SAMPLES));
         float reach = farthest * fract((i & 1) == 0 ? random.x + float(i) * 0.618034 : random.y + float(i) * 0.618034);
 #ifdef OFFSET_IN_IMAGE
         ivec2 tap = clamp(pixelFrom(pixel, vec2(cos(angle), sin(angle)) * reach), ivec2(0), view.size - 1);
 #else
-        // Directions turn from pixel to pixel: eight fixed ones draw stars.
+        // Directions turn from pixel to pixel, since eight fixed ones draw stars.
         angle += random.y * 6.283185307 / float(SAMPLES);
         ivec2 tap = pixelFrom(pixel, vec2(cos(angle), sin(angle)) * max(reach, 1.0));
         if (!insideRegion(tap)) continue;

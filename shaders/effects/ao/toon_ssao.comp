@@ -6,8 +6,8 @@
 #include "lib/normals.glsl"
 #endif
 
-// How much of a point of the kernel is hidden: 0 or 1, less where the occluder is much nearer than the radius. Written
-// without branches, so that software renderers need not walk a loop for it.
+// The hidden share of a kernel point: 0 or 1, less where the occluder is in front by more than the radius. It has no
+// branches, so that software renderers need no loop for it.
 // `perReach`: 1 over the radius in the same units as depths.
 float hiddenAt(vec3 kernelPoint, ivec2 pixel, float centre, vec3 position, vec3 mirror, vec3 surface, float perReach) {
     vec3 offset = reflect(kernelPoint, mirror);
@@ -60,8 +60,7 @@ void main() {
 #else
     float perReach = 1.0 / params.radius;
 #endif
-    // The kernel's points are part of the code: software renderers read a number from a list as slowly as one from an
-    // image.
+    // The kernel's points are part of the code, since software renderers read a list as slowly as an image.
 #define HIDDEN(point) hiddenAt(point, pixel, centre, position, mirror, surface, perReach)
     float hidden = SUM_OVER_KERNEL(HIDDEN);
     float share = hidden < float(params.deadZone) ? 0.0 : hidden / float(POINT_COUNT);

@@ -1,5 +1,5 @@
-// Brings an image of every second pixel to full resolution: each pixel from the four texels around it, by how near they
-// are and by how close to the pixel's own plane they lie.
+// Upsamples an image of every second pixel to full resolution: each pixel from the four texels around it, weighted by
+// their nearness and by their distance from the pixel's plane.
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 
@@ -19,18 +19,19 @@ void main() {
     ivec2 base = pixel / COARSE, odd = pixel - base * COARSE, last = (view.size - 1) / COARSE;
     float sum = 0.0, total = 0.0, nearest = 3.4e38, ofNearest = 1.0;
     for (int i = 0; i < 4; ++i) {
-        // Without branches: a pixel in line with the texels has itself for its neighbour, twice or four times.
+        // Without branches: a pixel in line with the texels takes the same texel twice or four times.
         ivec2 texel = min(base + ivec2(i & 1, i >> 1) * odd, last);
         float there = load(coarseDepth, texel).r, value = load(source, texel).r;
-        // Beyond any length where nothing is there.
+        // The background is farther than any distance.
         float distance =
             isBackground(there) ? 1e9 : abs(dot(viewPosition(texel * COARSE, there) - position, n)) * perFootprint;
-        // Half as much at one footprint off the plane: a corner's two sides part, a curved surface does not.
+        // The weight halves at one footprint off the plane. That separates a corner's two sides, but not a curved
+        // surface.
         float weight = 1.0 / (1.0 + distance * distance);
         sum += weight * value, total += weight;
         ofNearest = distance < nearest ? value : ofNearest;
         nearest = min(nearest, distance);
     }
-    // None lies near: the one that lies nearest.
+    // If no texel lies near the plane, take the nearest one.
     write_result(vec4(nearest < 4.0 ? sum / total : ofNearest));
 }

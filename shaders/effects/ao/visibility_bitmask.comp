@@ -7,7 +7,7 @@
 
 const float SECTORS = 32.0;
 
-// Nothing rises less above the surface than depths and normals are rounded to (sine).
+// Rises below this (sine above the surface) are rounding of depths and normals.
 const float LEAST_RISE = 1e-4;
 
 // Share of a slice's measure, 0 … 1, between its lower end and the direction to a point of the slice (inSlice).
@@ -27,7 +27,7 @@ float shareBelow(Slice s, vec2 at) {
 #endif
 }
 
-// Bits of the sectors between two shares; a sector that is covered in part counts with that probability.
+// Bits of the sectors between two shares; a partly covered sector counts with that probability.
 uint sectorsBetween(float a, float b, float dither) {
     float first = floor(min(a, b) * SECTORS + dither), last = floor(max(a, b) * SECTORS + dither);
     uint count = uint(clamp(last - first, 0.0, SECTORS)), from = uint(clamp(first, 0.0, SECTORS - 1.0));
@@ -42,7 +42,7 @@ struct Tap {
     bool exists, isNear, rises;  // near: within the radius; rises: above the surface, beyond rounding
 };
 
-// Where the way from a point within the radius to one beyond it crosses the radius.
+// The crossing of the radius on the way from a point within it to one beyond.
 vec2 crossing(vec2 inside, vec2 outside) {
     vec2 way = outside - inside;
     float a = max(dot(way, way), 1e-30), b = dot(inside, way),
@@ -60,7 +60,7 @@ void march(
     float count = min(float(STEPS), max(ceil(farthest), 1.0));
     float squaredRadius = params.radius * params.radius;
 #ifdef JOIN
-    // The point itself, a hair to the side, so that it has a direction.
+    // The point itself, slightly to the side, so that it has a direction.
     Tap before =
         Tap(vec3(0), surface, vec2(side * 1e-6 * params.radius, 0.0), side < 0.0 ? 0.0 : 1.0, true, true, false);
     float reachBefore = 0.0;
@@ -88,9 +88,9 @@ void march(
 #ifdef JOIN
         vec3 face = exists ? decodeNormal(load(normal, tap * COARSENESS).xy) : vec3(0);
         if (exists && before.exists && (isNear || before.isNear)) {
-            // Neighbours are of one surface, or of two that meet, if one of them lies near the other's tangent plane.
-            // Steps of many pixels may pass over more, but not in proportion: else they join things that only stand
-            // near each other in the picture.
+            // Neighbours lie on one surface, or on two that meet, if one lies near the other's tangent plane. Longer
+            // steps may lie farther off it, but not in proportion: that would join things that are only near each other
+            // in the picture.
             vec3 way = offset - before.offset;
             float allowed = params.joinWithin * sqrt(max(reach - reachBefore, 1.0))
                 * pixelFootprint(min(there, -position.z - before.offset.z));

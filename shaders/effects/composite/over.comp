@@ -11,7 +11,7 @@ void main() {
 #endif
     color += params.background * (1.0 - color.a);
 #ifdef WITH_FACTOR
-    // Where the background is left out, what darkens it stays.
+    // Darkening of the background stays even where the background is left out.
     float factor_ = load(factor, pixel).r;
     color = vec4(color.rgb * factor_, mix(1.0, color.a, factor_));
 #endif

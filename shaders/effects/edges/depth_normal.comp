@@ -1,12 +1,12 @@
-// Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or belong to
-// something else.
+// Finds the lines between a pixel and its neighbours at the right and above: where surfaces end, bend, or change object
+// or material.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"
 #include "lib/steps.glsl"
 
-// What is compared of a pixel.
+// The compared data of a pixel.
 struct Surface {
     float depth;
     vec3 normal;          // for shading
@@ -69,13 +69,13 @@ bool isStep(Surface a, Surface b) {
 #endif
 }
 
-// Why there is a line between two surfaces, if there is, and whose it is. Of several reasons the last that holds
-// counts. Written without branches: software renderers take both ways of each.
+// The source and the owner of a line between two surfaces, if there is one. Of several sources the last that applies
+// counts. The code has no branches, since software renderers take both sides of each.
 Side sideBetween(Surface a, Surface b) {
     bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth), both = !emptyA && !emptyB;
     bool outline = emptyA != emptyB || (both && isStep(a, b)), bIsNearer = b.depth < a.depth;
     bool drawsA = !emptyA && drawsLines(a), drawsB = !emptyB && drawsLines(b);
-    // Where surfaces touch, a line belongs to the one that wants it, and to the nearer if both do.
+    // Where surfaces touch, a line belongs to the one that draws lines, or to the nearer if both do.
     bool ownedByB = outline ? bIsNearer : !drawsA || (drawsB && bIsNearer);
     bool drawn = outline ? (bIsNearer ? drawsB : drawsA) : drawsA || drawsB;
     uint source = NO_SOURCE;

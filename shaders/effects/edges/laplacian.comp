@@ -1,5 +1,5 @@
-// Outlines of chosen objects: where a mask of them changes between neighbouring pixels, which is where its Laplacian is
-// not 0 (the outlines of the paper on depth tangents).
+// Outlines of chosen objects. They lie where the objects' mask changes between neighbouring pixels, that is, where its
+// Laplacian is not 0 (the outlines of the paper on depth tangents).
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/lines.glsl"
@@ -8,7 +8,7 @@
 struct Surface {
     float depth;
     vec3 position, face;
-    uint label;  // what outlines run between: 0 or 1 where objects are chosen, else the object's number
+    uint label;  // outlines separate labels: 0 or 1 where objects are chosen, else the object's number
 };
 
 #ifdef CHOSEN
@@ -38,7 +38,7 @@ Side sideBetween(Surface a, Surface b) {
     bool emptyA = isBackground(a.depth), emptyB = isBackground(b.depth);
     bool ends = emptyA != emptyB
         || isStepBetween(a.position, a.face, b.position, b.face, pixelFootprint(min(a.depth, b.depth)), 0.05);
-    // A line belongs to what is chosen; among all objects to the nearer.
+    // A line belongs to the chosen object; without a choice to the nearer one.
 #ifdef CHOSEN
     bool ownedByB = b.label == 1u;
 #else

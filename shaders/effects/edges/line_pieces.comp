@@ -9,7 +9,7 @@ struct Corner {
 };  // a crossing on a side of the cell, in the cell's square of 1×1
 
 Piece join(Corner a, Corner b) {
-    // The owner's side, counted from the piece: the pixel on the owner's side of the crossing lies there.
+    // The owner's side of the piece: the pixel of the crossing's owner lies there.
     bool owner = ownedByOther(a.code);
     vec2 seen = a.place.y == 0.0 || a.place.y == 1.0 ? vec2(owner, a.place.y) : vec2(a.place.x, owner);
     vec2 along = b.place - a.place, off = seen - a.place;
@@ -21,7 +21,7 @@ uvec2 crossingsAt(ivec2 pixel) {
                                                                                      : load(crossings, pixel).xy;
 }
 
-// A crossing that no other one continues on either side is no line but a speck.
+// A crossing without a continuation on either side is a speck, not a line.
 bool goesOn(ivec2 cell, bool viaBottom, bool viaRight, bool viaUpper) {
     ivec2 next = cell + (viaBottom ? ivec2(0, -1) : viaRight ? ivec2(1, 0) : viaUpper ? ivec2(0, 1) : ivec2(-1, 0));
     uvec2 own = crossingsAt(next);
@@ -48,12 +48,12 @@ void main() {
             pieces.zw = encodePiece(join(l, r));
             from = b, to = u;
         } else if (count == 3) {
-            // Going round from the side without a crossing; the middle one lies opposite to it.
+            // Goes round from the side without a crossing. The middle crossing lies opposite to it.
             Corner one = bottom == 0u ? r : right == 0u ? u : upper == 0u ? l : b;
             Corner middle = bottom == 0u ? u : right == 0u ? l : upper == 0u ? b : r;
             Corner other = bottom == 0u ? l : right == 0u ? b : upper == 0u ? r : u;
-            // A line runs on through what is of its kind, and straight on if that decides nothing; the third one ends
-            // on it.
+            // A line continues through the crossing of its own source, or straight on if sources decide nothing. The
+            // third crossing's line ends on it.
             bool oneIsOdd = sourceOf(one.code) != sourceOf(other.code) && sourceOf(other.code) == sourceOf(middle.code);
             bool otherIsOdd = sourceOf(one.code) != sourceOf(other.code) && sourceOf(one.code) == sourceOf(middle.code);
             from = oneIsOdd ? middle : one;
@@ -66,7 +66,7 @@ void main() {
         } else {
             from = bottom != 0u ? b : right != 0u ? r : upper != 0u ? u : l;
             to = left != 0u ? l : upper != 0u ? u : right != 0u ? r : b;
-            // A line that ends, ends in the middle of its last cell.
+            // A line ends in the middle of its last cell.
             if (count == 1) to.place = vec2(0.5);
         }
         if (count > 1 || goesOn(cell, bottom != 0u, right != 0u, upper != 0u))

@@ -1,4 +1,4 @@
-// Where exactly the lines run that a technique has found between pixels.
+// Finds the exact places of the lines that a technique has found between pixels.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
@@ -22,10 +22,10 @@ Surface surfaceAt(ivec2 pixel) {
         pixel, z, viewPosition(pixel, isBackground(z) ? 0.0 : z), decodeNormal(load(normalGeometric, pixel).xy));
 }
 
-// Where the planes of two surfaces meet, as seen on the way from a's pixel to b's; 0.5 where they do not, or do so
-// elsewhere.
+// The place on the way from a's pixel to b's where the planes of two surfaces meet; 0.5 if they meet elsewhere or not
+// at all.
 float meetingPlace(Surface a, Surface b) {
-    // Of what is linear in the picture, 1/depth or depth, on each plane at both ends: the difference at a, and at b.
+    // The planes' difference at a and at b, in the quantity that is linear in the picture: 1/depth or depth.
     float atA, atB;
     if (ORTHOGRAPHIC) {
         vec2 way = b.position.xy - a.position.xy;
@@ -64,7 +64,7 @@ void main() {
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
     uint found = load(sides, pixel).r;
     Surface here = surfaceAt(pixel);
-    // Few pixels have a line on both ways: pixels that are drawn together take turns as often as one of them needs.
+    // Few pixels have a line on both ways. Pixels that are drawn together loop only as often as one of them needs.
     uvec2 crossings = uvec2(0);
     uint pending =
         uint(decodeSide(found, 0).source != NO_SOURCE) | (uint(decodeSide(found, 1).source != NO_SOURCE) << 1);

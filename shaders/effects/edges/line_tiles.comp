@@ -1,4 +1,4 @@
-// Which tiles of the picture have any line in them.
+// Marks the tiles of the picture that have a line.
 #include "lib/space.glsl"
 
 void main() {

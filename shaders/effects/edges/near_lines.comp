@@ -1,4 +1,4 @@
-// Which tiles of the picture lie near lines: elsewhere there is nothing to do for those who draw them.
+// Marks the tiles of the picture near lines: drawing lines has nothing to do elsewhere.
 #include "lib/space.glsl"
 
 void main() {

@@ -1,7 +1,7 @@
-// How far triangles reach between the centres of two pixels: where an outline runs, to a fraction of a pixel.
+// The reach of triangles between the centres of two pixels: it places an outline to a fraction of a pixel.
 //
-// Include after a sampler `visibility` is declared. Works on homogeneous screen coordinates counted from the first
-// pixel's centre, which stay exact for triangles of any size and for those that reach behind the eye.
+// Include after a sampler `visibility` is declared. Homogeneous screen coordinates count from the first pixel's centre.
+// They stay exact for triangles of any size and for those that reach behind the eye.
 
 #include "lib/seen.glsl"
 
@@ -12,7 +12,7 @@ uvec2 seenAt(ivec2 pixel) {
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// What is seen at a pixel: a triangle of an instance, and its corners in mesh space.
+// The visible triangle at a pixel: its instance's number, and its corners in mesh space.
 struct Triangle {
     uint number;
     vec3 corners[3];
@@ -27,7 +27,7 @@ Triangle triangleOf(uvec2 seen) {
 }
 
 // Edge functions of a triangle, linear along the way from a pixel: at + slope · t, all of one sign inside. Divided by
-// their sum they are the barycentric weights of the corners across.
+// their sum they are the barycentric weights of the opposite corners.
 struct EdgeFunctions {
     vec3 at, slope;
 };
@@ -69,8 +69,7 @@ vec2 spanOf(Triangle triangle, ivec2 pixel, ivec2 way) {
 
 uint objectSeen(uvec2 seen) { return triangleObject(instanceAt(seen.x - 1u), seen.y); }
 
-// Do two triangles of an instance have two corners in common? Corners are stored anew for some triangles: places
-// decide.
+// Do two triangles of an instance share two corners? It compares places, since some triangles have copies of corners.
 bool shareEdge(Triangle one, Triangle other) {
     int alike = 0;
     for (int i = 0; i < 3; ++i) {
@@ -81,7 +80,7 @@ bool shareEdge(Triangle one, Triangle other) {
 }
 
 #ifdef CUTOUTS
-// Where on the way to a pixel a hole begins in the triangle: 0 … 1, and 2 where none does.
+// The place on the way to a pixel where a hole begins in the triangle: 0 … 1, or 2 if none does.
 float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
     Instance instance = instanceAt(seen.x - 1u);
     Material look = materialAt(triangleMaterial(instance, seen.y));
@@ -89,7 +88,7 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
     EdgeFunctions edges = edgesOf(triangle, pixel, way);
     vec3 here = edges.at, there = edges.at + edges.slope, beside = edges.at + edgesOf(triangle, pixel, way.yx).slope;
     vec3 sums = vec3(here.x + here.y + here.z, there.x + there.y + there.z, beside.x + beside.y + beside.z);
-    // Where the triangle's plane is seen edge-on, or passes the eye, there is no place on it.
+    // If the triangle's plane is edge-on, or passes the eye, there is no place on it.
     if (sums.x * sums.y <= 0.0 || sums.x * sums.z <= 0.0) return 2.0;
     here /= sums.x, there /= sums.y, beside /= sums.z;
     bool staysOn = min(there.x, min(there.y, there.z)) > -0.01;
@@ -97,22 +96,22 @@ float holeOnWay(uvec2 seen, ivec2 pixel, ivec2 way) {
     vec2 from = uvAt(corners, here.yz), to = uvAt(corners, there.yz), aside = uvAt(corners, beside.yz);
     vec2 uvX = (to - from) / float(view.raster), uvY = (aside - from) / float(view.raster);
     float alphaHere = sampleTexture(look, from, uvX, uvY).a, alphaThere = sampleTexture(look, to, uvX, uvY).a;
-    // Alpha is bilinear between texels: as good as straight over less than one of them.
+    // Alpha is bilinear between texels, and so nearly linear over less than one texel.
     if (!look.hasHoles || !staysOn || alphaThere >= 0.5) return 2.0;
     return clamp((alphaHere - 0.5) / max(alphaHere - alphaThere, 1e-6), 0.0, 1.0);
 }
 #endif
 
-// What is seen beside the way's ends: on both sides of its begin, then of its end.
+// The visible triangles beside the way's ends: on both sides of its begin, then of its end.
 uvec2 seenBeside(ivec2 pixel, ivec2 way, int i) {
     return seenAt(pixel + (i < 2 ? ivec2(0) : way) + (i % 2 == 0 ? way.yx : -way.yx));
 }
 
-// How far what is seen at `pixel` reaches towards `pixel + way`, where something else is seen: 0 … 1.
+// The reach, 0 … 1, of the surface visible at `pixel` towards `pixel + way`, where another is visible.
 //
-// The triangle seen at the pixel ends where the object ends, or where its next triangle begins. That one need not be
-// seen at any pixel's centre: it may be the other half of the same polygon, which has the next number or the one
-// before; else it is seen close by, if anywhere. Without `goOn` the triangle's own end counts.
+// The triangle visible at the pixel ends where the object ends, or where its next triangle begins. The next one need
+// not be visible at any pixel's centre. It may be the other half of the same polygon, whose number is the next or the
+// previous one; else it is visible close by, if anywhere. Without `goOn` the triangle's own end counts.
 float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     uvec2 seen = seenAt(pixel);
     Triangle first = triangleOf(seen), end = first;
@@ -123,14 +122,13 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
     if (hole <= 1.0) return hole;
 #endif
     if (!goOn) return reach;
-    // Candidates in the order in which they are tried: the triangle before it, the one after it, then those seen beside
-    // the way's ends.
+    // Candidates, in order: the triangle before it, the one after it, then those visible beside the way's ends.
     uint candidates = uint(seen.y > 0u) | (uint(seen.y + 1u < triangleCountOf(seen.x - 1u)) << 1);
     for (int i = 0; i < 4; ++i) {
         uvec2 other = seenBeside(pixel, way, i);
         if (other.x == seen.x && other.y != seen.y && objectSeen(other) == objectSeen(seen)) candidates |= 4u << i;
     }
-    // Only as often as some pixel of those that are drawn together needs.
+    // Loops only as often as one of the pixels drawn together needs.
     do {
         int i = max(findLSB(candidates), 0);
         bool isNumbered = i < 2;
@@ -138,14 +136,14 @@ float reachOf(ivec2 pixel, ivec2 way, bool goOn) {
         if (isNumbered) other = uvec2(seen.x, i == 0 ? seen.y - 1u : seen.y + 1u);
         Triangle next = triangleOf(candidates == 0u ? seen : other);
         vec2 span = spanOf(next, pixel, way);
-        // Neighbours share an edge, so that one begins where the other ends: but for rounding.
+        // Neighbours share an edge: one begins where the other ends, except for rounding.
         bool goesOn = reach < 1.0 && candidates != 0u && span.x <= reach + 0.01 && span.y > reach
             && (!isNumbered || shareEdge(first, next));
         if (goesOn) last = span, end = next, reach = min(span.y, 1.0);
         candidates = reach < 1.0 ? candidates & (candidates - 1u) : 0u;
     } while (candidates != 0u);
-    // Among triangles smaller than a pixel more will follow unseen: the object ends anywhere on the rest of the way.
-    // (Not so beyond a face seen nearly edge-on, which is thin but long.)
+    // More invisible triangles may follow one smaller than a pixel: the object ends anywhere on the rest of the way.
+    // (Not so beyond a nearly edge-on face, which is thin but long.)
     vec2 beside = spanOf(end, pixel + ivec2(round(clamp(0.5 * (last.x + last.y), 0.0, 1.0) * vec2(way))), way.yx);
     if (last.y - last.x < 0.75 && beside.y - beside.x < 1.5) reach = 0.5 * (reach + 1.0);
     return reach;

@@ -1,9 +1,9 @@
-// Draws lines of a width around where they run: exact distances to pieces of line, one coverage per pixel.
+// Draws lines of a width around their pieces: exact distances to pieces, one coverage per pixel.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/lines.glsl"
 
-// How lines of a source look: colour, and half of the width in pixels. No line at all looks like the first.
+// The style of a source's lines: colour, and half of the width in pixels. An absent line takes the first style.
 vec4 styleOf(uint source) {
 #ifdef ONE_LOOK
     return params.styles[0];
@@ -12,8 +12,9 @@ vec4 styleOf(uint source) {
 #endif
 }
 
-// The share of a pixel that lies on the near side of a straight line whose distance from the pixel's centre, towards
-// its far side, is s. The pixel's shadow on the line's unit normal n is a trapezium; this is the area of its part.
+// The share of a pixel on the near side of a straight line. The line lies at distance s from the pixel's centre,
+// towards its far side. The pixel's projection onto the line's unit normal n is a trapezium; the share is the area of
+// its part.
 float shareWithin(float s, vec2 n) {
     vec2 side = abs(n);
     float longer = max(max(side.x, side.y), 0.7), shorter = max(min(side.x, side.y), 1e-4);
@@ -22,9 +23,9 @@ float shareWithin(float s, vec2 n) {
     return s > 0.0 ? 1.0 - beyond : beyond;
 }
 
-// How much of the pixel a line covers whose nearest point lies `away` from its centre. The line is a band around its
-// pieces; beside them where it lies wholly within, or without, of what it bounds. Its coverage is the area of its part
-// of the pixel: the right weight in every direction and at every width, those below a pixel included.
+// The coverage of a line whose nearest point lies `away` from the pixel's centre. The line is a band around its pieces,
+// or beside them where it lies wholly inside or outside of its owner. The coverage is the band's area within the pixel:
+// the right weight in every direction and at every width, also below a pixel.
 float coverageOf(vec2 away, vec2 along, bool within, float halfWidth) {
     float distance = length(away);
     vec2 normal = distance > 1e-4 ? away / distance : vec2(-along.y, along.x) / max(length(along), 1e-3);
@@ -38,7 +39,7 @@ float coverageOf(vec2 away, vec2 along, bool within, float halfWidth) {
     return shareWithin(band.y - inside, normal) - shareWithin(band.x - inside, normal);
 }
 
-// A piece of line, as seen from a pixel.
+// A piece of line, relative to a pixel.
 struct Seen {
     vec2 away, along;
     uint code;
@@ -49,17 +50,17 @@ Seen see(uvec2 code, vec2 fromCorner) {
     Piece piece = decodePiece(code);
     vec2 along = piece.to - piece.from, off = fromCorner - piece.from;
     float squared = dot(along, along);
-    // A piece without a length has no direction either; its neighbours draw what it would. Nor has no piece at all.
+    // A piece of no length has no direction; its neighbours cover for it. An absent piece has no length either.
     if (squared == 0.0) off = vec2(1e4);
     return Seen(off - clamp(dot(off, along) / max(squared, 1e-6), 0.0, 1.0) * along, along, piece.code,
         (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
 }
 
-// What covers the pixel: colour, and opacity there.
+// The inks on the pixel: colour and opacity.
 vec4 top = vec4(0), rest = vec4(0);
 
 #ifdef ONE_COLOR
-// All lines are of one colour: the one that reaches farthest over the pixel decides.
+// All lines have one colour: the one that reaches farthest over the pixel decides.
 Seen best;
 float farthest = -1e9, bestHalf = 0.0;
 
@@ -76,7 +77,7 @@ void finish() {
 #else
 float topWidth = 0.0;
 
-// The widest line lies on top of the others. Of pieces of one line the strongest counts, since pieces of one line join.
+// The widest line lies on top. Among pieces of one line the strongest counts, since they join.
 void add(Seen seen) {
     float halfWidth = styleOf(sourceOf(seen.code)).a;
     vec4 ink = vec4(styleOf(sourceOf(seen.code)).rgb,
@@ -103,16 +104,16 @@ ivec2 cellNear(ivec2 pixel, int i) {
 void main() {
     ivec2 pixel = thisPixel();
     if (!insideRegion(pixel) || IS_MASKED(pixel)) return;
-    // Pieces lie on the grid of this sample's points; lines are drawn as seen from the middle of the pixel, so that all
-    // samples agree.
+    // Pieces lie on the grid of this sample's points. Coverage counts from the middle of the pixel, so that all samples
+    // agree.
     vec2 here = -view.samplePlace;
-    // Few of the cells around have a piece. Which ones is found out first: pixels that are drawn together then go
-    // through as many pieces as one of them has, not through all cells.
+    // Few of the cells around have a piece. Finding them first lets pixels that are drawn together loop over as many
+    // pieces as one of them has, not over all cells.
     for (int begin = 0; begin < WINDOW * WINDOW * 4; begin += 32) {
         uint occupied = 0u;
         for (int i = 0; i < min(32, WINDOW * WINDOW * 4 - begin); ++i)
             occupied |= uint(load(first, cellNear(pixel, begin + i)).x != 0u) << i;
-        bool beside = false;  // is it the turn of a cell's second piece?
+        bool beside = false;  // is a cell's second piece next?
         do {
             ivec2 cell = cellNear(pixel, begin + max(findLSB(occupied), 0));
             uvec2 one = load(first, cell).xy, two = load(second, cell).xy;

@@ -16,7 +16,7 @@ void main() {
     vec3 position = viewPosition(pixel, centre), n = decodeNormal(load(normal, pixel).xy);
 #endif
     for (int i = -HALF; i <= HALF; ++i) {
-        // Beyond what was drawn lies nothing: the border's own pixel again, which is alike only if it is near.
+        // Beyond the region drawn, taps repeat the border's pixel, which is alike only if it is near.
         ivec2 tap = clamp(pixel + params.axis * i, ivec2(0), view.size - 1);
         if (tap == pixel) continue;
         float there = load(depth, tap).r;

@@ -18,7 +18,7 @@ void main() {
             ivec2 tap = pixel + ivec2(x, y);
             if (tap == pixel || !insideRegion(tap)) continue;
             float there = load(depth, tap).r;
-            if (offPlane(position, n, perFootprint, tap, there) > params.step) continue;  // the background as well
+            if (offPlane(position, n, perFootprint, tap, there) > params.step) continue;  // the background too
             if (dot(decodeNormal(load(normal, tap).xy), n) < params.cosine) continue;
             float weight = exp(-float(x * x + y * y) * params.falloff);
             sum += weight * load(source, tap).r, total += weight;

@@ -1,9 +1,9 @@
-// Resolves the visibility buffer: evaluates, analytically and once per pixel, just what the plan reads of the triangle
-// seen there.
+// Resolves the visibility buffer: evaluates the visible triangle analytically, once per pixel, and only what the plan
+// reads.
 //
-// The pixel's ray is taken into the mesh's own space, where the vertices are exactly what was uploaded, and intersected
-// with the triangle's plane in double precision: depth is right to half an ulp of the float it is stored in, at every
-// distance and tilt.
+// It transforms the pixel's ray into mesh space, where the vertices are exactly as uploaded, and intersects it with the
+// triangle's plane in double precision. Depth is right to half an ulp of the float it is stored in, at every distance
+// and tilt.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
@@ -12,7 +12,7 @@
 #include "lib/texture.glsl"
 #endif
 
-// A triangle in mesh space, and the way there from view space.
+// A triangle in mesh space, and the transform there from view space.
 struct Surface {
     MeshFromView meshFromView;
     dvec3 corner, edge1, edge2, plane;  // plane: edge1 × edge2
@@ -34,13 +34,13 @@ Hit intersect(Surface s, dvec2 pixelCentre) {
     dvec3 origin = s.meshFromView.offset, direction;
     for (int i = 0; i < 3; ++i) {
         double sideways = dot(s.meshFromView.rows[i].xy, ray);
-        // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into the mesh keeps
+        // View space looks down -z, and a step of one along -z is a step of one in depth: mapping into mesh space keeps
         // t.
         direction[i] = (ORTHOGRAPHIC ? 0.0lf : sideways) - s.meshFromView.rows[i].z;
         if (ORTHOGRAPHIC) origin[i] += sideways;
     }
     double slope = dot(s.plane, direction);
-    // Seen exactly edge-on the ray lies in the plane; any depth on the triangle will do.
+    // If the triangle is exactly edge-on, the ray lies in its plane: any depth on it will do.
     double t = slope != 0.0lf ? dot(s.plane, s.corner - origin) / slope : 0.0lf;
     dvec3 q = origin + t * direction - s.corner;
     double size = along(s.plane, s.plane);
@@ -101,7 +101,7 @@ void main() {
     s.plane = cross(s.edge1, s.edge2);
     dvec2 centre = dvec2(pixel + view.origin) + 0.5lf;
     Hit hit = intersect(s, centre);
-    // The centre may lie up to half a grid step outside the triangle: a steep plane must not run away there.
+    // The centre may lie up to half a grid step outside the triangle: clamp, since a steep plane runs away there.
     vec3 z = -vec3(viewFromMesh(number, p0).z, viewFromMesh(number, p1).z, viewFromMesh(number, p2).z);
     float least = min(z.x, min(z.y, z.z)), most = max(z.x, max(z.y, z.z));
     // The bounds are floats: an ulp or two of room keeps them from cutting into exact depths.
@@ -119,7 +119,7 @@ void main() {
     write_position(vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
-    // The plane's normal by the winding of the mesh; surfaces have two sides, and we see the one that faces us.
+    // The plane's normal by the mesh's winding. Surfaces have two sides; the one that faces the eye is visible.
     vec3 outward = normalize(viewNormal(
         s.meshFromView, vec3(s.plane / max(max(abs(s.plane.x), abs(s.plane.y)), max(abs(s.plane.z), 1e-300lf)))));
     vec2 through = rayOf(pixel);
@@ -135,8 +135,8 @@ void main() {
     vec3 n0 = texelFetch(normals, at.x).xyz;
     vec3 between =
         n0 + weights.x * (texelFetch(normals, at.y).xyz - n0) + weights.y * (texelFetch(normals, at.z).xyz - n0);
-    // Opposite vertex normals cancel: then the triangle's own normal is the best there is. A back side shows its
-    // normals turned.
+    // Where opposite vertex normals cancel, the triangle's own normal is the best there is. Back sides turn normals
+    // around.
     bool usable = dot(between, between) > 1e-8;
     vec3 turned = viewNormal(s.meshFromView, between) * (fromBehind ? -1.0 : 1.0);
     write_normal(vec4(encodeNormal(usable ? normalize(turned) : towardsViewer), 0, 0));
@@ -158,7 +158,7 @@ void main() {
 #ifdef TEXTURED
     ivec3 places = uvCorners(instance, triangle);
     vec2 uv = uvAt(places, weights);
-    // How uv changes across the part of the pixel that the sample stands for, on the triangle's whole plane.
+    // The change of uv across the sample's part of the pixel, on the triangle's whole plane.
     double part = 1.0lf / double(view.raster);
     vec2 here = uvAt(places, hit.weights);
     vec2 uvX = uvAt(places, intersect(s, centre + dvec2(part, 0.0lf)).weights) - here;

@@ -1,4 +1,4 @@
-// Writes only which triangle is seen; exact.comp finds out everything else, once per pixel that is seen.
+// Writes only the visible triangle; exact.comp evaluates everything else, once per visible pixel.
 #include "lib/seen.glsl"
 #ifdef CUTOUTS
 #include "scene/scene.glsl"

@@ -1,4 +1,4 @@
-// Visibility: where the triangles are, on the grid of the whole picture.
+// Visibility: the places of triangles, on the grid of the whole picture.
 #include "scene/scene.glsl"
 #include "lib/snap.glsl"
 

@@ -1,4 +1,4 @@
-// The classic G-buffer: what the hardware interpolated is what is written.
+// The classic G-buffer: writes the attributes that the hardware interpolated.
 #include "scene/scene.glsl"
 #include "lib/space.glsl"
 #include "lib/normals.glsl"

@@ -2,8 +2,8 @@
 #include "lib/space.glsl"
 #include "lib/color.glsl"
 
-// An intensity this far below a threshold counts as having reached it: a face lit exactly at a threshold then lies
-// safely inside its band, whatever the last bits of its normal.
+// An intensity this far below a threshold already reaches it: a face lit exactly at a threshold then lies safely inside
+// its band, whatever the last bits of its normal.
 const float BAND_BIAS = 1e-4;
 
 #ifdef COLORED_LIGHT
@@ -12,7 +12,7 @@ float intensityAt(ivec2 pixel) { return load(light, pixel).a; }
 float intensityAt(ivec2 pixel) { return load(light, pixel).r; }
 #endif
 
-// The smaller of the differences to both sides: across an edge of the object one side is meaningless, the other is not.
+// The smaller of the differences to both sides: at an object's edge only one of them is meaningful.
 float slope(ivec2 pixel, ivec2 axis, float here) {
     ivec2 lower = max(pixel - axis, ivec2(0)), upper = min(pixel + axis, view.size - 1);
     float back = lower == pixel ? 1e30 : abs(here - intensityAt(lower));

@@ -1,7 +1,7 @@
 // The intensity that toon shading quantizes: (sum of max(0, N·L)·shadow + ambient)·ao + extra ambient + highlights.
 //
-// Writes it in the red channel; with coloured lights the colour of the light, scaled to a largest channel of 1, in rgb
-// and the intensity in alpha.
+// Writes it to the red channel. With coloured lights rgb is the light's colour, scaled to a largest channel of 1, and
+// alpha is the intensity.
 #include "scene/lighting.glsl"
 
 void main() {

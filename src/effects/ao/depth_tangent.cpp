@@ -1,16 +1,16 @@
 // Ambient shading from depth alone, by how a surface bends between a pixel and its neighbours: after a paper on one
 // post-processing shader for both edges and ambient shading, published in Pixel Bender and AGAL.
 //
-// Reads depth, nothing else; writes ambient_occlusion_raw, or edges, or where it stands in both slots one image,
-// depth_tangent, which cannot be split and multiplies the picture. Per neighbour p = Δdepth/range, b = p·(2 −
-// p/bleach), s = ½·max(b + brightness, 0), o = mean of 1/(1 + s²), result o^contrast: b grows to `bleach` at p = bleach
-// and falls again beyond, which is the check of range.
+// Reads depth only. Writes ambient_occlusion_raw or edges. In both slots it writes one image, depth_tangent, which
+// cannot be split and multiplies the picture. Per neighbour p = Δdepth/range, b = p·(2 − p/bleach), s = ½·max(b +
+// brightness, 0), o = mean of 1/(1 + s²), result o^contrast. The check of range: b grows to `bleach` at p = bleach and
+// falls again beyond.
 //
 // Paper mode: each of four neighbours by itself; a plane seen at a slant darkens, and flat regions are grey by
 // `brightness`.
 // Default mode: opposite neighbours in pairs, Δ = z − 2/(1/z₁ + 1/z₂) (orthographic: z minus their mean), which is 0 on
-// every plane; only what is concave darkens; brightness 0 keeps flat regions white; neighbours lie in several rings, so
-// that edges cast no ghosts of themselves at the reach; the reach is in output units and the range in the scene's, so
+// every plane. Only concave places darken. Brightness 0 keeps flat regions white. Neighbours lie in several rings, so
+// that edges cast no ghosts of themselves at the reach. The reach is in output units and the range in the scene's, so
 // that the picture does not depend on resolution.
 
 #include "effects/ao/occlusion.h"
@@ -152,7 +152,7 @@ Constants derive(const Params& params, const View& view) {
     return c;
 }
 
-/// The pass, whatever its result is called.
+/// Adds the pass under the name of its result.
 ResourceId addPass(EffectBuilder& graph, const Params& params, const std::string& resultName, bool tellsAbsence,
     std::vector<std::pair<std::string, std::string>> defines = {}, const LineConstants* line = nullptr) {
     const ResourceId result = graph.image(resultName, line ? aov::edges.format : Format::r32f);
@@ -187,13 +187,13 @@ ResourceId addPass(EffectBuilder& graph, const Params& params, const std::string
     return result;
 }
 
-// The technique's two places, which are one image where both are filled.
+// The technique stands in two slots; where both are filled they share one image.
 extern const Technique kDepthTangent, kDepthTangentLines;
 
 void build(EffectBuilder& graph, const Params& params) {
-    graph.useEverySample();  // its occlusion is drawn with as sharp a pen as lines
+    graph.useEverySample();  // its occlusion is as sharp as lines
     if (const auto* lines = graph.chosen(kDepthTangentLines)) {
-        // One image that is both. What the lines' table says of it would have to agree.
+        // Both slots share one image, so the lines' table may not set its parameters.
         const LineParams defaults;
         for (const auto& f : kLineParams)
             if (f.type().text(f.constMember(lines->params.get())) != f.type().text(f.constMember(&defaults)))

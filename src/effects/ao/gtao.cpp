@@ -5,9 +5,9 @@
 // Reads depth and the geometric normal; writes ambient_occlusion_raw. Everything behind the visible surface counts as
 // solid: thin things hide too much (visibility_bitmask is the remedy).
 //
-// Departs from the paper in default mode: the picture's own radius and falloff for all techniques instead of a fade
-// over its outer part; an open plane is exactly open, since the slices' visible parts are divided by what they would be
-// without occluders; no fudge for thin things.
+// Departs from the paper in default mode. Radius and falloff are those of all techniques, instead of a fade over the
+// outer part. An open plane is exactly open, since the slices' visible parts are divided by their values without
+// occluders. There is no fudge for thin things.
 
 #include "effects/ao/occlusion.h"
 

@@ -3,12 +3,12 @@
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// Paper mode: occlusion is sin h − sin t, averaged over directions (a wall at angle β hides β/π of the light), horizons
-// less than 30 degrees above the surface are ignored, occluders count 1 − (d/R)², taps beyond the picture take its
+// Paper mode: occlusion is sin h − sin t, averaged over directions (a wall at angle β hides β/π of the light). Horizons
+// less than 30 degrees above the surface are ignored. Occluders count 1 − (d/R)². Taps beyond the picture take its
 // border.
-// Default mode: weighted with the cosine, in planes through the line of sight, so that it tends to the ray-traced truth
-// wherever the depth buffer is the whole truth; a bias that only covers rounding; the falloff that all techniques
-// share; a guard band.
+// Default mode: occlusion is weighted with the cosine, in planes through the line of sight. It tends to the ray-traced
+// truth wherever the depth buffer is the whole truth. The bias only covers rounding. It has the falloff of all
+// techniques and a guard band.
 
 #include "effects/ao/occlusion.h"
 

@@ -3,13 +3,14 @@
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// The kernel is the lecture's: directions from the normalized half cube, a random length, drawn towards the centre so
-// that the mean distance is about a fifth of the radius. (Its listing keeps each point a second time before it is drawn
-// in; that is an error and not kept.)
+// The kernel is the lecture's: directions from the normalized half cube and random lengths, drawn towards the centre so
+// that the mean distance is about a fifth of the radius. (Its listing also stores each point before drawing it in; that
+// error is left out.)
 // Paper mode: kernel turned by one of 4×4 tiled vectors, points compared at their
 // own depth with an absolute bias.
-// Default mode: turned by a low-discrepancy angle per pixel, the bias a share of the radius, and points compared at the
-// height above the surface that they have over the pixel they fall on, so that planes are open at every tilt.
+// Default mode: kernel turned by a low-discrepancy angle per pixel, with a bias that is a share of the radius. Points
+// are compared at their own height above the surface, over the pixel they fall on, so that planes are open at every
+// tilt.
 
 #include "effects/ao/occlusion.h"
 

@@ -1,4 +1,4 @@
-// What the techniques of ambient occlusion share besides their definition: resolution and the names of their results.
+// Shared code of the ambient occlusion techniques: resolution and the names of their results.
 #pragma once
 
 #include "effects/technique.h"
@@ -17,18 +17,18 @@ struct OcclusionInputs {
     int coarseness = 1;  ///< pixels of the picture per texel, each way
 };
 
-/// Half resolution adds a pass that picks every second depth.
+/// Gets the inputs. Half resolution adds a pass that picks every second depth.
 OcclusionInputs occlusionInputs(EffectBuilder& graph, Resolution resolution);
 
 /// The image that a technique writes.
 ResourceId occlusionImage(EffectBuilder& graph, const OcclusionInputs& inputs);
 
-/// Makes the image the picture's ambient occlusion; at half resolution after a pass that brings it to full resolution,
-/// each pixel from the four nearest texels, weighted by how well they lie in the pixel's plane (joint bilateral
-/// upsampling, Kopf et al. 2007).
+/// Publishes the image as the picture's ambient occlusion. Half resolution first adds a pass that upsamples it: each
+/// pixel from the four nearest texels, weighted by how well they lie in the pixel's plane (joint bilateral upsampling,
+/// Kopf et al. 2007).
 void publishOcclusion(EffectBuilder& graph, const OcclusionInputs& inputs, ResourceId image);
 
-/// Adds what every technique's shader needs to know: COARSENESS, FALLOFF.
+/// Adds the defines of every technique's shader: COARSENESS, FALLOFF.
 void defineOcclusion(Pass& pass, const OcclusionInputs& inputs, Falloff falloff);
 
 }  // namespace limn

@@ -5,10 +5,10 @@
 // there)/max_distance goes through `function`: 0 where the neighbour lies behind, rising quickly where it lies in
 // front, falling again where it is too far to matter. The result is 1 − the mean.
 //
-// Paper mode: neighbours up to a share of the picture away; those with a normal too like the pixel's are thrown out,
-// and with them a card that stands parallel to a wall.
-// Default mode: neighbours up to the radius' image away, more than eight of them if asked, spread evenly; thrown out is
-// what does not stand above the pixel's own plane, so that planes are open at every tilt and the card still counts.
+// Paper mode: neighbours up to a share of the picture away. Those with a normal too like the pixel's are rejected, and
+// with them a card that stands parallel to a wall.
+// Default mode: neighbours up to the radius' image away, more than eight of them if asked, spread evenly. Those that do
+// not stand above the pixel's own plane are rejected, so that planes are open at every tilt and the card still counts.
 
 #include "effects/ao/occlusion.h"
 

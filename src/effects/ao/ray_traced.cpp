@@ -1,9 +1,9 @@
-// Ambient occlusion by ray tracing (Embree), from the visible surfaces' positions and geometric normals: nothing that
-// the camera does not see is missing. With many rays it is the truth that the study measures by; with a few, and the
-// filter "plane_aware", a technique like the others.
+// Ambient occlusion by ray tracing (Embree), from the visible surfaces' positions and geometric normals. It includes
+// occluders that the camera does not see. With many rays it is the study's ground truth; with a few, and the filter
+// "plane_aware", it is a technique like the others.
 //
 // Reads depth and normal_geometric; writes ambient_occlusion_raw and, when asked, ambient_occlusion_error. Runs on the
-// CPU's threads, for just the pixels that show a surface.
+// CPU's threads, only for pixels that show a surface.
 
 #include "effects/technique.h"
 #include "rays/ambient_occlusion.h"

@@ -5,10 +5,10 @@
 // Reads depth (and, for a hemisphere, the geometric normal); writes ambient_occlusion_raw: 1 open, 0 closed, background
 // 1.
 //
-// Departs from the paper in default mode, each by a parameter: the points fill a hemisphere over the surface instead of
-// a flat disk at the pixel's depth, occluders beyond the radius do not count, no dead zone, and occlusion grows with
-// the count instead of its square. A point is compared at the centre of the pixel it falls on, at its own height above
-// the surface: a plane is open at every tilt.
+// Departs from the paper in default mode, each time by a parameter. The points fill a hemisphere over the surface
+// instead of a flat disk at the pixel's depth. Occluders beyond the radius do not count. There is no dead zone.
+// Occlusion grows with the count instead of its square. A point is compared at the centre of the pixel it falls on, at
+// its own height above the surface: a plane is open at every tilt.
 
 #include "effects/technique.h"
 
@@ -86,8 +86,8 @@ Constants derive(const Params& params, const View& view) {
         params.imageRadius * static_cast<float>(view.imageSize.x), params.deadZone, params.strength};
 }
 
-/// The sum of what the macro `visit` makes of each point of the kernel, in GLSL. Directions on a Fibonacci spiral and
-/// lengths in an order unrelated to it, so that the few points fill the unit ball evenly.
+/// GLSL that sums the macro `visit` over the kernel's points. Directions on a Fibonacci spiral and lengths in an order
+/// unrelated to it, so that the few points fill the unit ball evenly.
 std::string sumOverKernel(int count) {
     std::string sum;
     const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));

@@ -1,13 +1,13 @@
 // Ambient occlusion by visibility bitmasks: each slice through the line of sight keeps one bit per sector of its
-// angles, so that light gets past thin things on their far side too.
+// angles. So light also gets past the far side of thin things.
 // Therrien, Levesque, Gilet, "Screen Space Indirect Lighting with Visibility Bitmask", The Visual Computer 2023.
 //
 // Reads depth and the geometric normal; writes ambient_occlusion_raw.
 //
-// Departs from the paper in default mode: sectors hold equal shares of the cosine-weighted slice instead of equal
-// angles; what lies between neighbouring taps is hidden where both lie on one surface (join), so that `thickness` only
-// has to stand for what the picture cannot show, the depth of things behind their fronts; sectors that are covered in
-// part count with that probability; evenly spaced steps stay.
+// Departs from the paper in default mode. Sectors hold equal shares of the cosine-weighted slice instead of equal
+// angles. Two neighbouring taps on one surface also hide the sectors between them (join), so that `thickness` only
+// stands for what the picture cannot show, the depth of things behind their fronts. Partly covered sectors count with
+// that probability. Steps stay evenly spaced.
 
 #include "effects/ao/occlusion.h"
 

@@ -1,16 +1,16 @@
-// Lines where depth or normal jump: pass 5 of Lajzer & Nottingham, with what drawings need beside: objects, materials,
+// Lines where depth or normals jump: pass 5 of Lajzer & Nottingham. Drawings also need lines of objects, materials and
 // sections.
 //
-// Each pixel is compared with its neighbours at the right and above. Where they differ, the place between them where
-// the surface ends, or where two planes meet, is computed from the triangles seen: lines are as straight as the edges
-// they stand for. Reads depth and geometric normals, and as asked shading normals, ids, what objects say of their
-// lines; writes edges: the lines in their colours, premultiplied, over those of the layers before.
+// Each pixel is compared with its neighbours at the right and above. Where they differ, the visible triangles give the
+// exact place where a surface ends or two planes meet. So lines are as straight as the edges behind them. Reads depth
+// and geometric normals, and on demand shading normals, ids and line records. Writes edges: the lines in their colours,
+// premultiplied, over those of the layers before.
 //
 // Paper mode: |Δdepth| > 0.05·(1 − depth) on the standard post-projection depth, N·N' < 0.95. (The paper compares with
 // eight neighbours, which draws lines two pixels wide and no other width.)
-// Default mode: a surface ends in front of another where each pixel's surface lies on the other side of the other's
-// tangent plane: bent surfaces have both on one side, so that neither tilt nor curvature draws a false line, and the
-// height of a step may be a fraction of a pixel.
+// Default mode: one surface ends in front of another where the nearer point lies above the other's tangent plane and
+// the farther below. On a bent surface both lie on one side, so neither tilt nor curvature draws a false line, and a
+// step may be a fraction of a pixel high.
 
 #include "effects/edges/stroke.h"
 
@@ -97,8 +97,8 @@ Constants derive(const Params& params, const View& view) {
     c.cosine = static_cast<float>(std::cos(glm::radians(static_cast<double>(params.creaseAngle))));
     c.depthThreshold = params.depthThreshold;
     c.far = static_cast<float>(view.far);
-    // Our own near distance is far too small for a projected depth to mean anything; a 256th of the far distance is
-    // what programs of the paper's time used.
+    // Our own near distance is far too small for a meaningful projected depth. Programs of the paper's time used a
+    // 256th of the far distance.
     c.near = static_cast<float>(std::max(view.near, view.far / 256));
     return c;
 }
@@ -137,7 +137,7 @@ void build(EffectBuilder& graph, const Params& params) {
     if (graph.scene().lineRecords) {
         pass.defines.emplace_back("WITH_RECORDS", "");
         pass.reads.push_back({"lineRecord", graph.read(aov::lineRecord), 1});
-        pass.needs = SceneData::positions;  // they stand in the scene's words
+        pass.needs = SceneData::positions;  // records are in the scene's words
     }
     if (params.depthTest == DepthTest::projected) pass.defines.emplace_back("PROJECTED_DEPTH", "");
     pass.writes = {{"result", sides}};

@@ -1,13 +1,12 @@
-// Outlines of chosen objects, as in the paper on depth tangents (depth_tangent.cpp): the Laplacian of a mask in which
-// they are white and all else is black.
+// Outlines of chosen objects, as in the paper on depth tangents (depth_tangent.cpp): the Laplacian of a mask with these
+// objects in white and all else in black.
 //
 // Reads depth, geometric normals and object numbers; with materials those too. Writes edges. Objects are chosen by
-// name, material or number; without a choice every object's boundary is drawn, found where neighbours have different
-// numbers (a Laplacian of the numbers themselves would miss the middle of 1|2|3).
+// name, material or number. Without a choice every object's boundary is drawn: neighbours there have different numbers
+// (a Laplacian of the numbers themselves would miss the middle of 1|2|3).
 //
-// Departs from the paper: the threshold of a mask's Laplacian is any difference at all, and the line has a width and
-// runs where the object ends, to a fraction of a pixel. Its unsigned target kept what the Laplacian has outside the
-// object: side = "outer".
+// Departs from the paper: any difference in the mask makes a line. The line has a width and runs where the object ends,
+// to a fraction of a pixel. The paper's unsigned target kept the Laplacian's part outside the object: side = "outer".
 
 #include "base/text.h"
 #include "effects/edges/stroke.h"
@@ -52,7 +51,7 @@ constexpr Field kConstants[] = {
         "firstMaterialWord", "Where the bits of materials begin among those of objects."),
 };
 
-/// A set of numbers from 0, a bit for each.
+/// A set of numbers from 0, one bit each.
 class Bits {
 public:
     explicit Bits(std::size_t count) : words((count + 31) / 32) {}

@@ -47,15 +47,15 @@ void defineSources(Pass& pass) {
 
 namespace edges_stroke {
 
-/// Adds the passes, one step after the other.
+/// Adds the passes in order.
 class Strokes {
 public:
     Strokes(EffectBuilder& graph, const Stroke& stroke)
         : graph_(graph), stroke_(stroke), suffix_(graph.layerSuffix()), records_(graph.scene().lineRecords) {
         const auto narrower = [](const auto& a, const auto& b) { return a.width < b.width; };
         widest_ = *std::max_element(stroke.styles.begin(), stroke.styles.end(), narrower);
-        // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and may be seen from half a pixel
-        // beside the centre of its own.
+        // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and its sample may lie half a pixel
+        // beside its own pixel's centre.
         const double reach = stroke.side == LineSide::both ? widest_.width / 2 : widest_.width;
         window_ = static_cast<int>(std::ceil(reach + 1));
     }
@@ -80,7 +80,7 @@ private:
         return made;
     }
 
-    /// Lines cover little of a picture: what follows runs only in the tiles that have some, or lie near those.
+    /// Marks the tiles with lines and those nearby. Later passes run only there, since lines cover little of a picture.
     void findNear(ResourceId sides) {
         tiles_ = graph_.image("line_tiles" + suffix_, Format::r8, kMaskTile);
         graph_.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles_}}, "where there are lines"));
@@ -138,7 +138,7 @@ private:
         }
         addStyles(draw);
         if (const auto below = graph_.find(aov::edges)) {
-            // Away from this layer's lines the layers below must stay.
+            // Where this layer has no lines, the layers below must stay.
             draw.reads.push_back({"layersBelow", *below});
             draw.defines.emplace_back("LAYERS_BELOW", "");
         } else {
@@ -151,7 +151,8 @@ private:
     }
 
     void addStyles(Pass& draw) const {
-        // Lines of one colour, or even of one width, need less sorting. Styles that are not drawn look as any other.
+        // Lines of one colour, or even of one width, need less sorting. Styles that are not drawn take the widest one's
+        // look.
         PerSource<LineStyle> styles = stroke_.styles;
         for (auto& style : styles)
             if (style.width <= 0) style = widest_;
@@ -160,7 +161,7 @@ private:
             draw.defines.emplace_back("ONE_COLOR", "");
         if (all([&](const LineStyle& style) { return style == widest_; })) draw.defines.emplace_back("ONE_LOOK", "");
         draw.params = paramsBlock(kConstants, Constants{stroke_.opacity});
-        // Linear colour, and half of the width in pixels, of each source.
+        // Per source: linear colour, and half of the width in pixels.
         std::vector<glm::vec4> packed;
         for (const auto& style : styles) packed.push_back(pack(style));
         appendVectors(draw.params, "styles", packed);
@@ -173,7 +174,7 @@ private:
     std::string suffix_;
     bool records_;
     LineStyle widest_;
-    int window_ = 1;  ///< pixels: how far around a pixel lines may matter
+    int window_ = 1;  ///< pixels: the distance up to which lines matter to a pixel
     ResourceId tiles_, near_, crossings_, first_, second_;
 };
 

@@ -1,8 +1,8 @@
-// The mean of a square of pixels: takes out noise that repeats in tiles of that size. Lawonn, "Screen-Space Ambient
+// The mean of a square of pixels, which removes noise that repeats in tiles of that size. Lawonn, "Screen-Space Ambient
 // Occlusion", lecture.
 //
 // Reads and writes ambient_occlusion. Paper mode sums from −size/2 to size/2 − 1, which moves the picture by half a
-// pixel; by default the square is centred, its outer rows counting half where the size is even.
+// pixel; by default the square is centred, and its outer rows count half where the size is even.
 
 #include "effects/technique.h"
 

@@ -1,6 +1,6 @@
 // A 3×3 Gaussian, several times over: pass 3 of Lajzer & Nottingham.
 //
-// Reads and writes ambient_occlusion. Applying (1 2 1)⊗(1 2 1)/16 n times is applying the binomial weights of 2n once
+// Reads and writes ambient_occlusion. The kernel (1 2 1)⊗(1 2 1)/16, n times, equals the binomial weights of 2n once
 // along rows and once along columns: two passes of 2n + 1 taps instead of n passes of 9.
 
 #include "effects/technique.h"
@@ -38,8 +38,7 @@ void build(EffectBuilder& graph, const Params& params) {
         Pass pass;
         pass.name = isLast ? "gaussian_columns" : "gaussian_rows";
         pass.defines = {{"TAPS_BESIDE", std::to_string(n)}};
-        // Columns need rows n pixels above and below the picture; of these only those columns that lie in it, whose
-        // taps end where these rows' columns do.
+        // Columns need rows n pixels above and below the picture. Of these rows they need only the picture's columns.
         pass.reads = {{"source", graph.read(aov::ambientOcclusion), isLast ? n : 0}};
         pass.writes = {{"result", result}};
         pass.params = paramsBlock(

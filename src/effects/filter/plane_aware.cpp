@@ -46,7 +46,7 @@ constexpr Field kConstants[] = {
 
 void build(EffectBuilder& graph, const Params& params) {
     const double chord = 2 * std::sin(glm::radians(static_cast<double>(params.angle)) / 2);
-    // What every tap needs, side by side: one fetch instead of three halves the time of the passes.
+    // Packs the data of a tap side by side: one fetch instead of three halves the time of the passes.
     ResourceId packed = graph.image("ambient_occlusion_on_surface", Format::rgba32f);
     Pass gather;
     gather.name = "plane_aware_gather";

@@ -1,5 +1,5 @@
-// A Gaussian that leaves out what does not belong to the pixel's surface: the future work of Schmitt, "Screen Space
-// Ambient Occlusion" (2008), after Filion & McNaughton.
+// A Gaussian that leaves out other surfaces than the pixel's: the future work of Schmitt, "Screen Space Ambient
+// Occlusion" (2008), after Filion & McNaughton.
 //
 // Reads ambient_occlusion, depth and normal_geometric; writes ambient_occlusion. A tap's weight drops to 0 where it
 // lies too far off the pixel's tangent plane, or where its normal differs too much. (The text says "depth difference";

@@ -1,5 +1,4 @@
-// What every geometry technique promises: the AOVs that describe the visible surfaces. The plan keeps only those that
-// are read.
+// The promises of every geometry technique: the AOVs of the visible surfaces. The plan keeps only those that are read.
 #pragma once
 
 #include "effects/technique.h"

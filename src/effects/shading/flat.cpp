@@ -1,4 +1,4 @@
-// Flat colours: the objects' own, no light evaluated; ambient occlusion, where there is any, multiplies.
+// Flat colours: the objects' own, without light, times ambient occlusion where there is any.
 
 #include "effects/technique.h"
 

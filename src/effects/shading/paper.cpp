@@ -1,8 +1,8 @@
-// A drawing on paper: everything in the colour of the sheet, with a tint of its own colour, darkened by ambient
-// occlusion as by a wash.
+// A drawing on paper: everything has the sheet's colour and a tint of its own, and ambient occlusion darkens it like a
+// wash.
 //
 // Reads depth, albedo where there is a tint, ambient_occlusion where there is any; writes shade. Cut faces of sections
-// keep their fill, and lie in no shade: they are drawn, not seen.
+// keep their fill, without shade: they are drawn, not seen.
 
 #include "effects/technique.h"
 

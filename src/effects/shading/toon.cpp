@@ -4,11 +4,11 @@
 // highlights, toon_bands quantizes it. Reads depth, normal, albedo, material_id and, where there is any,
 // ambient_occlusion; writes shade.
 //
-// Paper mode: floor(4·I)/4 of display-encoded colour, levels above 1 appear and clip, the half vector uses a constant
+// Paper mode: floor(4·I)/4 of display-encoded colour. Levels above 1 appear and clip. The half vector uses a constant
 // view direction.
-// Default mode: exactly n bands, evenly spaced to the eye, the true view direction, band edges one pixel soft. A band
-// begins at its threshold less 1e-4, so that a face lit exactly at a threshold does not flicker with the last bit of
-// its normal.
+// Default mode: exactly n bands, evenly spaced to the eye, with the true view direction and band edges one pixel soft.
+// A band begins at its threshold less 1e-4, so that a face lit exactly at a threshold does not flicker with the last
+// bit of its normal.
 
 #include "effects/shading/lighting.h"
 
