@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/text.h"
 
 #include <cerrno>
 
@@ -15,6 +16,8 @@ Error::Error(ExitCode code_, Location where_, std::string problem_, std::string 
     : code(code_), where(std::move(where_)), problem(std::move(problem_)), remedy(std::move(remedy_)) {
     const std::string place = where.text();
     message = (place.empty() ? "" : place + ": ") + problem + (remedy.empty() ? "" : "; " + remedy);
+    // Bugs are told in full: what a compiler of shaders says takes many lines.
+    if (code != ExitCode::internal) message = presentable(message);
 }
 
 const char* Errors::what() const noexcept { return list.front().what(); }

@@ -47,7 +47,7 @@ struct Error : std::exception {
     Location where;
     std::string problem;  ///< what is wrong
     std::string remedy;   ///< how to mend it; may be empty
-    std::string message;  ///< "where: problem; remedy"
+    std::string message;  ///< "where: problem; remedy", presentable (base/text.h)
 };
 
 /// Several errors that were found together. Never empty when thrown.

@@ -7,8 +7,14 @@
 #include <unistd.h>
 
 #include <array>
+#include <cctype>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <fstream>
+#include <mutex>
+#include <set>
+#include <sstream>
 #include <utility>
 
 namespace limn {
@@ -70,6 +76,81 @@ void compareWith(int fd, std::span<const std::byte> bytes, const std::filesystem
     if (!bytes.empty()) throw writeError(path, EIO, "reading back");
 }
 
+/// A word of letters, digits and dots: as part of a file's name.
+std::string word(std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; });
+    return text.empty() ? "unknown" : text;
+}
+
+std::string firstLine(const char* path) {
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    return line;
+}
+
+/// When a process began, in ticks since the machine booted; empty where there is no such process. The name of its
+/// program, in brackets, may hold anything: fields are counted from the last bracket.
+std::string startOf(const std::string& process) {
+    const std::string line = firstLine(("/proc/" + process + "/stat").c_str());
+    std::istringstream fields(line.substr(std::min(line.rfind(')') + 1, line.size())));
+    std::string field;
+    for (int i = 0; i < 20; ++i) fields >> field;
+    return fields ? field : "";
+}
+
+/// Where process numbers mean the same: host, its boot, and the namespace of processes, which containers have of their
+/// own.
+const std::string& thisMachine() {
+    static const std::string machine = [] {
+        std::array<char, 256> host{};
+        ::gethostname(host.data(), host.size() - 1);
+        std::error_code unknown;
+        const auto space = std::filesystem::read_symlink("/proc/self/ns/pid", unknown).string();
+        return word(host.data()).substr(0, 64) + '-' + word(firstLine("/proc/sys/kernel/random/boot_id")).substr(0, 12)
+            + '-' + word(space);
+    }();
+    return machine;
+}
+
+/// ".limn-HOST-BOOT-NAMESPACE-PROCESS-START-": whose a temporary is, should a kill leave it behind.
+constexpr std::string_view kTemporary = ".limn-";
+const std::string& temporaryPrefix() {
+    static const std::string prefix = [] {
+        const std::string process = std::to_string(::getpid());
+        return fmt::format("{}{}-{}-{}-", kTemporary, thisMachine(), process, word(startOf(process)));
+    }();
+    return prefix;
+}
+
+/// Can the process that made a temporary not be there any more? Of another machine's nothing is known but their age.
+bool isLeftBehind(const std::filesystem::path& file) {
+    const std::string name = file.filename().string(), own = std::string(kTemporary) + thisMachine() + '-';
+    if (name.starts_with(own)) {
+        const auto dash = name.find('-', own.size()), end = name.find('-', dash + 1);
+        if (dash != std::string::npos && end != std::string::npos)
+            return word(startOf(name.substr(own.size(), dash - own.size()))) != name.substr(dash + 1, end - dash - 1);
+    }
+    std::error_code gone;
+    const auto written = std::filesystem::last_write_time(file, gone);
+    return !gone && std::filesystem::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
+/// Removes what killed processes have left in a folder; once per folder and process. What cannot be removed stays.
+void sweepTemporaries(const std::filesystem::path& folder) {
+    static std::mutex mutex;
+    static std::set<std::filesystem::path> swept;
+    const std::lock_guard lock(mutex);
+    std::error_code error;
+    if (!swept.insert(std::filesystem::weakly_canonical(folder, error)).second) return;
+    for (auto entry = std::filesystem::directory_iterator(folder, error);
+         !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+        if (entry->path().filename().string().starts_with(kTemporary) && isLeftBehind(entry->path())) {
+            std::error_code ignored;
+            std::filesystem::remove(entry->path(), ignored);
+        }
+}
+
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
@@ -122,8 +203,8 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
     std::error_code unknown;
     if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
 
-    // The name tells the owner of a file that a kill leaves behind.
-    auto temporary = (folder / ".limn-XXXXXX").string();
+    sweepTemporaries(folder);
+    auto temporary = (folder / (temporaryPrefix() + "XXXXXX")).string();
     Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
     if (fd < 0) throw writeError(path, errno, "creating");
     try {
@@ -140,6 +221,16 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
     // The rename itself must survive a power cut; a file system that cannot sync folders has nothing better to offer.
     const Descriptor folderFd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folderFd >= 0) ::fsync(folderFd);
+}
+
+void requireWritable(const std::filesystem::path& path) {
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    std::error_code made;
+    std::filesystem::create_directories(folder, made);
+    if (made) throw writeError(folder, made.value(), "making the folder");
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) throw writeError(path, errno, "creating");
 }
 
 void replaceFile(const std::filesystem::path& path, std::string_view text) {

@@ -37,10 +37,14 @@ inline constexpr std::size_t kLongestText = std::size_t{64} << 20;
 std::string readFile(const std::filesystem::path& path);
 
 /// Replaces `path` by `bytes`, or leaves everything as it was. Writes a temporary in the same folder, notices short
-/// writes, syncs, reads back, compares, renames, and syncs the folder. Makes missing folders. Throws Error: 73 cannot
-/// create, 74 I/O or disk full, 77 permission.
+/// writes, syncs, reads back, compares, renames, and syncs the folder. Makes missing folders. Removes the temporaries
+/// of processes that are no more: this machine's at once, others' after a day. Throws Error: 73 cannot create, 74 I/O
+/// or disk full, 77 permission.
 void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void replaceFile(const std::filesystem::path& path, std::string_view text);
+
+/// Throws Error where replaceFile could not even begin. Makes missing folders.
+void requireWritable(const std::filesystem::path& path);
 
 /// "room_####.exr" at 7 → "room_0007.exr".
 std::filesystem::path framePath(const std::filesystem::path& pattern, int frame);

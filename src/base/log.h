@@ -1,6 +1,8 @@
 // Messages for people, on standard error. What a command was asked for goes to standard output instead.
 #pragma once
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <string_view>
@@ -23,7 +25,7 @@ void info(fmt::format_string<Args...> text, Args&&... args) {
 }
 template <class... Args>
 void warning(fmt::format_string<Args...> text, Args&&... args) {
-    write(Level::warning, fmt::format(text, std::forward<Args>(args)...));
+    write(Level::warning, presentable(fmt::format(text, std::forward<Args>(args)...)));
 }
 /// Only for what ends the run: some farms fail a task as soon as they read the word "error".
 template <class... Args>

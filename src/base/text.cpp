@@ -48,6 +48,29 @@ std::string nameRemedy(std::string_view word, std::span<const std::string> candi
     return "it can be " + joinOr(candidates);
 }
 
+std::string presentable(std::string_view text) {
+    std::string shown;
+    for (std::size_t i = 0; i < text.size() && shown.size() < 100 * kLongestMessage; ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        // The second half of the controls has two bytes in UTF-8.
+        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+        const bool isSecondHalf = byte == 0xC2 && next >= 0x80 && next < 0xA0;
+        if (byte < 0x20 || byte == 0x7F || isSecondHalf)
+            shown += fmt::format("\\x{:02x}", isSecondHalf ? next : byte);
+        else
+            shown += text[i];
+        i += isSecondHalf;
+    }
+    if (shown.size() <= kLongestMessage) return shown;
+    // The end says what to do about it.
+    constexpr std::string_view gap = " … ";
+    std::size_t head = kLongestMessage / 2, tail = shown.size() - (kLongestMessage - gap.size() - head);
+    const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(shown[at]) & 0xC0u) == 0x80u; };
+    while (head > 0 && continues(head)) --head;
+    while (tail < shown.size() && continues(tail)) ++tail;
+    return shown.substr(0, head) + std::string(gap) + shown.substr(tail);
+}
+
 std::string joinOr(std::span<const std::string> words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)

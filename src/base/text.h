@@ -15,6 +15,11 @@ std::optional<std::string> nearestName(std::string_view word, std::span<const st
 /// "did you mean 'x'?" when something is near, else "it can be a, b or c".
 std::string nameRemedy(std::string_view word, std::span<const std::string> candidates);
 
+/// As a message may show it: control characters, which names can hold, as "\x1b"; what is longer than kLongestMessage
+/// without its middle.
+std::string presentable(std::string_view text);
+inline constexpr std::size_t kLongestMessage = 300;  ///< bytes
+
 /// ASCII letters made small; all else as it is.
 std::string lowerCase(std::string_view text);
 

@@ -257,7 +257,7 @@ private:
         scene_.frames = parseFrameRange(animation.frames);
         if (!animation.frames.empty() && !scene_.frames)
             fail(*node->find("frames"), fmt::format("frames '{}' is no range", animation.frames),
-                "write for example frames = \"1-240\"");
+                fmt::format("write for example frames = \"1-240\", with at most {} frames", kMostFrames));
     }
 
     void readMesh(const Node& node) {

@@ -9,6 +9,12 @@
 
 namespace limn {
 
+ShaderLibrary::ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {
+    if (folder_.empty() || std::filesystem::is_directory(folder_ / "lib")) return;
+    throw Error(ExitCode::missingInput, {folder_.string()}, "holds no shaders of limn",
+        "name the folder 'shaders' of limn's sources, or a copy of it");
+}
+
 bool ShaderLibrary::contains(const std::string& path) const {
     return folder_.empty() ? !embeddedShader(path).empty() : std::filesystem::exists(folder_ / path);
 }

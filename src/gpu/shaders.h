@@ -11,8 +11,8 @@ namespace limn {
 
 class ShaderLibrary {
 public:
-    /// `folder` empty: the sources built into the program.
-    explicit ShaderLibrary(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+    /// `folder` empty: the sources built into the program. Throws Error (missingInput) where the folder holds none.
+    explicit ShaderLibrary(std::filesystem::path folder = {});
 
     bool contains(const std::string& path) const;
     /// The source, with `#include "lib/x.glsl"` lines replaced by their files, each file once. Call from one thread.

@@ -1,4 +1,5 @@
 #include "job/frames.h"
+#include "scene/frames.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@ namespace limn {
 std::vector<int> parseFrames(const std::string& text) {
     const auto fail = [&]() -> int {
         throw Error(ExitCode::usage, {fmt::format("--frames {}", text)}, "this is no list of frames",
-            "write for example 12, 1-100, 1-100x2 or 1,5,9-12");
+            fmt::format("write for example 12, 1-100, 1-100x2 or 1,5,9-12, with at most {} frames", kMostFrames));
     };
     std::vector<int> frames;
     const char* at = text.data();
@@ -33,7 +34,8 @@ std::vector<int> parseFrames(const std::string& text) {
                 step = number();
             }
         }
-        if (step < 1 || std::abs(static_cast<long>(last) - first) / step > 10'000'000) fail();
+        const long count = step < 1 ? 0 : std::abs(static_cast<long>(last) - first) / step + 1;
+        if (count < 1 || count + static_cast<long>(frames.size()) > kMostFrames) fail();
         for (int f = first; first <= last ? f <= last : f >= last; f += first <= last ? step : -step)
             frames.push_back(f);
         if (at == end) return frames;

@@ -103,6 +103,8 @@ public:
 
     ExitCode draw() {
         const std::vector<Job> jobs = readJobs(options_);
+        // What cannot be written is said before anything is drawn for it.
+        if (!options_.stats.empty()) requireWritable(options_.stats);
         // The first scene loads while the device starts, and its meshes are made as far as time allows.
         std::optional<int> first;
         if (!options_.frames.empty()) first = parseFrames(options_.frames).front();

@@ -146,7 +146,7 @@ public:
         }
         if (!header.frames.empty() && !(config_.frames = parseFrameRange(header.frames)))
             fail(*document_.find("frames"), fmt::format("frames '{}' is no range", header.frames),
-                "write for example \"1-24\"");
+                fmt::format("write for example \"1-24\", with at most {} frames", kMostFrames));
         readImage();
         readSheet();
         config_.choices = readChoices(document_, errors_);

@@ -1,0 +1,119 @@
+// Messages and temporaries.
+
+#include "base/file.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+
+namespace limn {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Messages, showNoControlCharacters) {
+    EXPECT_EQ(presentable("plain Größe 木"), "plain Größe 木");
+    EXPECT_EQ(presentable("a\x1b[31mb\nc\x7f\xC2\x9B"), "a\\x1b[31mb\\x0ac\\x7f\\x9b");
+    const Error error(ExitCode::usage, {"fi\x07le.toml", 3, 4}, "'\x1b' is unknown");
+    EXPECT_EQ(error.message, "fi\\x07le.toml:3:4: '\\x1b' is unknown");
+}
+
+TEST(Messages, areCutInTheMiddle) {
+    for (const std::size_t length : {299u, 300u, 301u, 5000u}) {
+        const std::string text = "begin" + std::string(length - 8, 'x') + "end";
+        const std::string shown = presentable(text);
+        EXPECT_LE(shown.size(), kLongestMessage);
+        EXPECT_TRUE(shown.starts_with("begin") && shown.ends_with("end")) << shown;
+        EXPECT_EQ(shown == text, length <= kLongestMessage);
+    }
+    std::string letters;
+    for (int i = 0; i < 400; ++i) letters += "木";
+    const std::string shown = presentable(letters);
+    const auto gap = shown.find(" … ");
+    ASSERT_NE(gap, std::string::npos);
+    EXPECT_EQ(gap % 3, 0u) << "no letter is cut in two";
+    EXPECT_EQ((shown.size() - gap - 5) % 3, 0u);
+}
+
+class Temporaries : public testing::Test {
+protected:
+    Temporaries() { fs::create_directories(folder_); }
+    ~Temporaries() override { fs::remove_all(folder_); }
+    std::size_t count() const {
+        std::size_t found = 0;
+        for (const auto& entry : fs::directory_iterator(folder_))
+            found += entry.path().filename().string().starts_with(".limn-");
+        return found;
+    }
+    /// Writes a file in a process that is killed in the midst of it, `times` over.
+    void writeAndBeKilled(int times) const {
+        for (int i = 0; i < times; ++i) {
+            const pid_t child = ::fork();
+            if (child == 0) {
+                const std::string large(64 << 20, 'x');
+                for (;;) replaceFile(folder_ / "picture", large);
+            }
+            while (count() == 0) ::usleep(200);
+            ::kill(child, SIGKILL);
+            int status = 0;
+            ::waitpid(child, &status, 0);
+        }
+    }
+
+    // Folders are swept once per process.
+    fs::path folder_ = fs::temp_directory_path()
+        / fmt::format("limn-{}-{}", testing::UnitTest::GetInstance()->current_test_info()->name(), ::getpid());
+};
+
+TEST_F(Temporaries, ofKilledProcessesAreSweptByTheNextOne) {
+    writeAndBeKilled(1);
+    ASSERT_EQ(count(), 1u) << "a kill in the midst of writing leaves one behind";
+    replaceFile(folder_ / "picture", "whole");
+    EXPECT_EQ(count(), 0u);
+    EXPECT_EQ(readFile(folder_ / "picture"), "whole");
+}
+
+TEST_F(Temporaries, ofTheLivingAndOfOtherMachinesStay) {
+    // Another process of this machine, at work.
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const std::string large(64 << 20, 'x');
+        for (;;) replaceFile(folder_ / "other", large);
+    }
+    while (count() == 0) ::usleep(200);
+    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(25);
+    const fs::path fresh = folder_ / ".limn-elsewhere-0123-pid4026-77-88-abcdef", stale = fresh.string() + "g",
+                   earlier = folder_ / ".limn-abcdef";
+    for (const auto& file : {fresh, stale, earlier}) std::ofstream(file) << "x";
+    fs::last_write_time(stale, old);
+    fs::last_write_time(earlier, old);
+    const pid_t sweeper = ::fork();
+    if (sweeper == 0) {
+        replaceFile(folder_ / "mine", "x");
+        ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(sweeper, &status, 0);
+    EXPECT_EQ(status, 0);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(fs::exists(fresh)) << "perhaps at work, on another machine";
+    EXPECT_FALSE(fs::exists(stale)) << "a day old";
+    EXPECT_FALSE(fs::exists(earlier)) << "of a version that did not say whose";
+    EXPECT_TRUE(fs::exists(folder_ / "mine"));
+}
+
+TEST(Writable, isSaidBeforeAnythingIsDone) {
+    EXPECT_THROW(requireWritable("/proc/nothing/stats.json"), Error);
+    EXPECT_THROW(requireWritable("/"), Error);
+    EXPECT_NO_THROW(requireWritable(fs::temp_directory_path() / "stats.json"));
+}
+
+}  // namespace
+}  // namespace limn
