@@ -24,6 +24,7 @@ void addDoctor(CLI::App& app, Chosen& chosen);
 
 /// Options of the device that several commands share.
 void addDeviceFlags(CLI::App& command, SessionOptions& session);
+void addMemoryOption(CLI::App& command);
 void addUpOption(CLI::App& command, MeshFileOptions& options);
 
 /// The parameter reference, as Markdown.

@@ -1,5 +1,6 @@
 // limn render: configs to pictures.
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "job/run.h"
@@ -45,6 +46,17 @@ void addUpOption(CLI::App& command, MeshFileOptions& options) {
         ->check(CLI::IsMember({"y", "z"}));
 }
 
+void addMemoryOption(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "--memory-limit", [](const std::string& text) { setMemoryLimit(*parseMemory(text)); },
+            "What may be taken: 8G, 512M; without it the limit of the control group or 80 % of the machine's memory")
+        ->type_name("M")
+        ->check([](const std::string& text) {
+            return parseMemory(text) ? std::string() : "write a size, such as 8G or 512M";
+        });
+}
+
 void addDeviceFlags(CLI::App& command, SessionOptions& session) {
     command
         .add_option(
@@ -86,6 +98,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
     command->add_option("--threads", *threads, "CPU threads; without it what the farm or the machine grants")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
+    addMemoryOption(*command);
     command->add_flag("--keep-going", options->keepGoing, "Draw the other frames when one fails (exit code 1)");
     command->add_flag("--strict", options->strict, "Fail when a value in the picture is not a finite number");
     command->add_option("--stats", options->stats, "Write the times of each part to this JSON file")->type_name("FILE");

@@ -2,6 +2,8 @@
 #include "formats/mtl.h"
 
 #include "base/file.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "formats/format.h"
 #include "formats/model_text.h"
 #include "formats/obj_text.h"
@@ -535,6 +537,9 @@ ObjFile readObj(const std::filesystem::path& path) { return parseObj(MappedFile(
 
 static MeshFile readMesh(const std::filesystem::path& path) {
     const MappedFile mapped(path);
+    // Lines of text become about four times as many bytes: chunks first, then the mesh.
+    const MemoryClaim claim(mapped.text().size() * 4, {path.string()},
+        fmt::format("the file has {}", bytesText(mapped.text().size())), "split the model into several files");
     MeshFile file;
     tbb::parallel_invoke([&] { file.key = contentKey(mapped.text()); },
         [&] {

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "job/frame_files.h"
 #include "job/frames.h"
+#include "job/progress.h"
 #include "job/statistics.h"
 
 #include <fmt/format.h>
@@ -118,7 +119,9 @@ public:
                 if (j + 1 < jobs.size()) session_.loadAhead(jobs[j + 1].config);
             };
             attempt([&] {
+                progress_.begin(fmt::format("reading {}", jobs[j].config.scene.string()));
                 const LoadedScene& loaded = session_.load(jobs[j].config);
+                progress_.end();
                 ahead();
                 drawJob(jobs[j], loaded);
             });
@@ -166,6 +169,8 @@ private:
         RenderOptions wanted;
         wanted.crop = job.crop;
         wanted.onBand = [&](const RenderedFrame& band) { writer.add(band); };
+        wanted.onProgress = [&](double share) { progress_.reach(share); };
+        progress_.begin(path.string());
         RenderedFrame rendered = session_.draw(job.config, frame, wanted);
         if (rendered.nonFinite > 0) tellNonFinite(rendered.nonFinite, path);
         std::vector<PartTime> parts = std::move(rendered.times);
@@ -177,6 +182,7 @@ private:
         const auto files = writer.finish();
         parts.push_back({"write", since(writeStart)});
         const double total = since(frameStart);
+        progress_.end();
         for (const auto& file : files) log::info("Saved: '{}' ({:.1f} ms)", file.string(), total);
         for (const auto& part : parts) log::debug("  {:<24} {:8.1f} ms", part.name, part.milliseconds);
         statistics_.addFrame(path, frame, parts, total);
@@ -193,6 +199,7 @@ private:
     Clock::time_point start_ = Clock::now();
     Session session_;
     Statistics statistics_;
+    Progress progress_;
     double deviceMilliseconds_ = 0, loadMilliseconds_ = 0;  ///< since the run began
     std::size_t failed_ = 0, done_ = 0;
     ExitCode firstFailure_ = ExitCode::done;

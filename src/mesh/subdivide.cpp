@@ -1,6 +1,7 @@
 #include "mesh/subdivide.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "mesh/far.h"
 #include "mesh/tessellate.h"
 #include "mesh/topology.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace limn {
 namespace {
@@ -222,10 +224,16 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     out.pivot = pivot;
     // The layout for vertex pipelines comes from polygons alone, so its faces are refined uniformly.
     if (goes(Way::bfr) && !needs.unified)
-        out = tessellate(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs, pivot, true);
+        out = tessellate(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs, pivot, true, name);
     const auto addPolygons = [&](const PolyMesh& mesh) {
         if (mesh.faceCount() > 0) append(out, triangulateMesh(mesh, needs, pivot));
     };
+    // Uniform refinement makes the faces of all levels: 1 1/3 times the last one's, of about 300 bytes each.
+    std::optional<MemoryClaim> claim;
+    const bool isUniform = (goes(Way::bfr) && needs.unified) || goes(Way::safe);
+    if (const std::uint64_t faces = std::uint64_t{cage.cornerPosition.size()} << 2 * std::max(options.level - 1, 0);
+        isUniform)
+        claim.emplace(faces * 400, Location{name}, fmt::format("subdivision makes {} faces", faces), kFewerTriangles);
     if (goes(Way::bfr) && needs.unified)
         addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::bfr) : cage, options, needs.normals));
     // Far's patches are evaluated like Bfr's. They take any rates and, unlike uniform refinement, know the limit of a
@@ -233,7 +241,7 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     const bool patches = options.limit && !options.safe && (!options.chaikin || options.edgeRate)
         && options.scheme != SubdivisionScheme::bilinear && !needs.unified;
     if (goes(Way::safe) && patches)
-        append(out, tessellate(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs, pivot, false));
+        append(out, tessellate(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs, pivot, false, name));
     else if (goes(Way::safe))
         addPolygons(refineUniformly(mixed ? part(cage, ways.ofFace, Way::safe) : cage, options, needs.normals));
     if (goes(Way::plain)) addPolygons(part(cage, ways.ofFace, Way::plain));

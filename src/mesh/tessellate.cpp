@@ -1,7 +1,9 @@
 #include "mesh/tessellate.h"
 
+#include "base/memory.h"
 #include "mesh/far_limit.h"
 
+#include <fmt/format.h>
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 #include <opensubdiv/bfr/tessellation.h>
@@ -61,11 +63,12 @@ glm::dvec2 inwards(const Bfr::Parameterization& p, const glm::dvec2& uv) {
 class Tessellator {
 public:
     Tessellator(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs,
-        const glm::dvec3& pivot, bool byBfr)
+        const glm::dvec3& pivot, bool byBfr, const std::string& name)
         : cage_(cage),
           options_(options),
           needs_(needs),
           pivot_(pivot),
+          name_(name),
           byBfr_(byBfr),
           withUvs_(needs.uvs && !cage.cornerUv.empty()),
           withColors_(needs.colors && !cage.colors.empty()),
@@ -196,6 +199,9 @@ private:
         });
         drawn_.resize(faces);
         for (std::size_t f = 0; f < faces; ++f) drawn_[f] = triangles[f] > 0;
+        const std::uint64_t made = std::accumulate(triangles.begin(), triangles.end(), std::uint64_t{0});
+        claim_.emplace(made * kTriangleBytes, Location{name_}, fmt::format("subdivision makes {} triangles", made),
+            kFewerTriangles);
 
         constexpr int none = -1;
         vertexOwner_.assign(static_cast<std::size_t>(base_.GetNumVertices()), none);
@@ -435,6 +441,8 @@ private:
     const SubdivisionOptions& options_;
     const MeshNeeds& needs_;
     glm::dvec3 pivot_;
+    const std::string& name_;
+    std::optional<MemoryClaim> claim_;
     bool byBfr_, withUvs_, withColors_;
     std::unique_ptr<Far::TopologyRefiner> refiner_;
     const Far::TopologyLevel& base_;
@@ -451,8 +459,8 @@ private:
 }  // namespace
 
 TriMesh tessellate(const PolyMesh& cage, const SubdivisionOptions& options, const MeshNeeds& needs,
-    const glm::dvec3& pivot, bool byBfr) {
-    return Tessellator(cage, options, needs, pivot, byBfr).run();
+    const glm::dvec3& pivot, bool byBfr, const std::string& name) {
+    return Tessellator(cage, options, needs, pivot, byBfr, name).run();
 }
 
 }  // namespace limn

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "base/install.h"
+#include "base/memory.h"
 #include "picture/directions.h"
 #include "stage/shadow_layout.h"
 
@@ -276,6 +277,15 @@ void Renderer::bringScene(Frame& frame, const TilePipelines& pipelines, std::vec
     if (bringRays(frame, meshOf, made.meshes)) watch.lap("of which ray tracing tree");
 }
 
+void Renderer::tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples) {
+    using namespace std::chrono;
+    if (!options.onProgress || steady_clock::now() - toldAt_ < milliseconds(500)) return;
+    // What has been sent to the device is not drawn yet; waiting for it this seldom costs nothing.
+    gl::finish();
+    toldAt_ = steady_clock::now();
+    options.onProgress((frame.tilesDone + static_cast<double>(sample) / samples) / frame.tiles);
+}
+
 void Renderer::drawSamples(
     const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options) {
     const Pipeline& pipeline = pipelines.averaged;
@@ -287,6 +297,7 @@ void Renderer::drawSamples(
         const View view = makeView(frame.scene.camera, frame.scene.info, request);
         gpuScene_.setView(frame.scene, view);
         executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
+        tellProgress(frame, options, sample + 1, pipelines.sampling.samples());
     }
     gl::finish();
     passTimes_.clear();
@@ -340,6 +351,19 @@ void Renderer::checkShadows(const SceneAt& scene, const std::string& file) const
             "lower shadow.resolution");
 }
 
+/// What is to be drawn of a picture, in pixels from the lower left; `crop` counts from the upper left.
+static PixelRect wantedPart(const PixelRect& crop, glm::ivec2 size) {
+    if (crop.size.x <= 0) return {glm::ivec2(0), size};
+    return {{crop.origin.x, size.y - crop.origin.y - crop.size.y}, crop.size};
+}
+
+/// A band as it is drawn, as it is encoded, and a tile of it on its way from the device.
+static std::uint64_t bandBytes(const std::vector<Layer>& layers, int width, int rows) {
+    std::uint64_t channels = 0;
+    for (const auto& layer : layers) channels += layer.channels.size();
+    return 3 * sizeof(float) * channels * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(rows);
+}
+
 RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
@@ -360,15 +384,17 @@ RenderedFrame Renderer::render(
     result.metadata = metadataOf(config, frame.scene, number, device_.report(), pipelines.averaged);
     for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
 
-    // The wanted part, in pixels from the lower left; tiles begin at multiples of four.
-    const PixelRect& crop = options.crop;
-    const PixelRect wanted = crop.size.x > 0
-        ? PixelRect{{crop.origin.x, size.y - crop.origin.y - crop.size.y}, crop.size}
-        : PixelRect{glm::ivec2(0), size};
+    // Tiles begin at multiples of four.
+    const PixelRect wanted = wantedPart(options.crop, size);
     const int tileSize = chooseTileSize(config, pipelines, firstBlock.size);
     // A block that cannot be cut is drawn whole, whatever is wanted of it.
     const bool wholeBlocks = !takesAnyTile(pipelines);
     const auto columns = tileSpans(size, 0, tileSize, wanted), rows = tileSpans(size, 1, tileSize, wanted);
+    const int bandRows = std::min(std::max(tileSize, 1), size.y);
+    const MemoryClaim claim(bandBytes(result.layers, wanted.size.x, bandRows), {config.file.string()},
+        fmt::format("a band of the picture has {} rows of {} pixels", bandRows, wanted.size.x),
+        "make the picture smaller, or set image.tile to a smaller size");
+    frame.tiles = static_cast<double>(columns.size() * rows.size());
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
         // A band: the wanted part of these tiles, rows from the top.
         const int low = std::max(row->from, wanted.origin.y), high = std::min(row->to, wanted.origin.y + wanted.size.y);
@@ -382,6 +408,7 @@ RenderedFrame Renderer::render(
                 ? block
                 : PixelRect{{column.from, row->from}, {column.to - column.from, row->to - row->from}};
             auto images = drawTile(frame, {block, rect}, options, result);
+            ++frame.tilesDone;
             // Includes the guard band, if that was asked for.
             const bool isAll = columns.size() == 1 && bandRect.origin == rect.origin && bandRect.size == rect.size;
             const int left = std::max(column.from, wanted.origin.x),

@@ -7,6 +7,7 @@
 #include "render/pipeline.h"
 #include "stage/meshes.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -25,6 +26,8 @@ struct RenderOptions {
     /// Takes a picture band by band, from the top, as the layers' images. The frame then drops them; without it the
     /// frame keeps them all.
     std::function<void(const RenderedFrame&)> onBand;
+    /// Told now and then how much of the picture is drawn: 0 to 1.
+    std::function<void(double)> onProgress;
 };
 
 /// Wall-clock milliseconds of a part of a frame.
@@ -78,6 +81,7 @@ private:
         SceneFacts facts;
         int number;
         std::future<MadeMeshes> awaited;  ///< ends with the frame, even if that fails
+        double tiles = 1, tilesDone = 0;
     };
 
     /// Compiles the programs of all samples of a frame.
@@ -97,6 +101,8 @@ private:
     /// Draws a tile: one image per AOV of the config, of the tile's size (and the guard band to be kept).
     std::vector<Image> drawTile(
         const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
+    /// Tells RenderOptions::onProgress, at most twice a second.
+    void tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples);
     void drawSamples(
         const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);
 
@@ -110,6 +116,7 @@ private:
     std::map<ContentKey, TriMesh> rayMeshes_;   ///< its input
     ContentKey rayKey_;                         ///< of all its input
     std::future<MadeMeshes> awaited_;
+    std::chrono::steady_clock::time_point toldAt_;  ///< when RenderOptions::onProgress was told last
 };
 
 /// Makes the meshes that a frame needs without a device, while one starts.

@@ -1,6 +1,7 @@
-// Messages and temporaries.
+// What outlives a run, and what it may take: messages, memory, temporaries.
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <memory>
 
 namespace limn {
 namespace {
@@ -39,6 +41,38 @@ TEST(Messages, areCutInTheMiddle) {
     ASSERT_NE(gap, std::string::npos);
     EXPECT_EQ(gap % 3, 0u) << "no letter is cut in two";
     EXPECT_EQ((shown.size() - gap - 5) % 3, 0u);
+}
+
+TEST(Memory, readsSizes) {
+    EXPECT_EQ(parseMemory("8G"), std::uint64_t{8} << 30);
+    EXPECT_EQ(parseMemory("1.5m"), std::uint64_t{3} << 19);
+    EXPECT_EQ(parseMemory("4096"), 4096u);
+    EXPECT_EQ(parseMemory("2T"), std::uint64_t{2} << 40);
+    for (const char* text : {"", "G", "0", "-1G", "lots", "1e30G", "nanG"}) EXPECT_FALSE(parseMemory(text)) << text;
+}
+
+TEST(Memory, isRefusedBeforeItIsTaken) {
+    EXPECT_GT(memoryLimit(), std::uint64_t{1} << 28);
+    setMemoryLimit(std::uint64_t{1} << 40);
+    const auto claim = [](std::uint64_t bytes) {
+        return std::make_unique<MemoryClaim>(bytes, Location{"f"}, "it is large", "mend");
+    };
+    {
+        const auto first = claim(std::uint64_t{600} << 30);
+        EXPECT_NO_THROW(claim(std::uint64_t{300} << 30));
+        try {
+            claim(std::uint64_t{500} << 30);
+            FAIL() << "two claims add up";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code, ExitCode::outOfMemory);
+            EXPECT_EQ(error.message.find("f: it is large and would need about 500.0 GiB, with 60"), 0u)
+                << error.message;
+            EXPECT_NE(error.message.find("1.0 TiB allowed; mend"), std::string::npos) << error.message;
+        }
+    }
+    EXPECT_NO_THROW(claim(std::uint64_t{500} << 30)) << "what is given back is free again";
+    EXPECT_THROW(claim(~std::uint64_t{0}), Error);
+    setMemoryLimit(0);
 }
 
 class Temporaries : public testing::Test {
