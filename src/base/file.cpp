@@ -115,12 +115,9 @@ const std::string& thisMachine() {
 
 /// ".limn-HOST-BOOT-NAMESPACE-PROCESS-START-": whose a temporary is, should a kill leave it behind.
 constexpr std::string_view kTemporary = ".limn-";
-const std::string& temporaryPrefix() {
-    static const std::string prefix = [] {
-        const std::string process = std::to_string(::getpid());
-        return fmt::format("{}{}-{}-{}-", kTemporary, thisMachine(), process, word(startOf(process)));
-    }();
-    return prefix;
+std::string temporaryPrefix() {
+    const std::string process = std::to_string(::getpid());
+    return fmt::format("{}{}-{}-{}-", kTemporary, thisMachine(), process, word(startOf(process)));
 }
 
 /// Can the process that made a temporary not be there any more? Of another machine's nothing is known but their age.
