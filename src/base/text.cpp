@@ -71,12 +71,15 @@ std::string presentable(std::string_view text) {
     return shown.substr(0, head) + std::string(gap) + shown.substr(tail);
 }
 
-std::string joinOr(std::span<const std::string> words) {
+static std::string join(std::span<const std::string> words, std::string_view last) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+        text += std::string(i == 0 ? "" : i + 1 == words.size() ? last : ", ") + words[i];
     return text;
 }
+
+std::string joinOr(std::span<const std::string> words) { return join(words, " or "); }
+std::string joinAnd(std::span<const std::string> words) { return join(words, " and "); }
 
 std::optional<double> parseNumber(std::string_view text) {
     double value = 0;

@@ -23,6 +23,8 @@ inline constexpr std::size_t kLongestMessage = 300;  ///< bytes
 /// ASCII letters made small; all else as it is.
 std::string lowerCase(std::string_view text);
 
+/// "a, b and c"
+std::string joinAnd(std::span<const std::string> words);
 /// "a, b or c"
 std::string joinOr(std::span<const std::string> words);
 

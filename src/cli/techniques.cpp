@@ -22,30 +22,68 @@ std::vector<Row> rows(Schema schema, const void* defaults) {
     std::vector<Row> result;
     for (const auto& f : schema)
         result.push_back({std::string(f.name), typeText(f),
-            f.info.required ? "required"
-                : defaults  ? f.type().text(f.constMember(defaults))
-                            : "",
-            rangeText(f), std::string(f.info.unit), std::string(f.doc), f.info.accuracy,
-            f.info.keyable && f.type().components > 0});
+            f.info.required ? "required" : f.type().text(f.constMember(defaults)), rangeText(f),
+            std::string(f.info.unit), std::string(f.doc), f.info.accuracy, f.info.keyable && f.type().components > 0});
     return result;
 }
 
 /// The config's key for the technique: the output can be pasted into a config.
 std::string_view keyOf(const Technique& technique) { return findSlot(technique.slot)->key; }
 
-std::string textOf(const Technique& technique) {
-    std::string out = fmt::format("{} = \"{}\"\n    {}\n", keyOf(technique), technique.name, technique.doc);
-    for (const auto& row : rows(technique.schema, technique.makeParams().get())) {
-        out += fmt::format("    {:<20} {}  ({}{}{}{}{})\n", row.name, row.standard, row.type,
-            row.range.empty() ? "" : ", " + row.range, row.unit.empty() ? "" : ", " + row.unit,
+std::string textOf(const std::vector<Row>& table) {
+    std::string out;
+    for (const auto& row : table) {
+        out += fmt::format("    {:<20} {}  ({}{}{}{}{})\n", row.name, row.standard.empty() ? "\"\"" : row.standard,
+            row.type, row.range.empty() ? "" : ", " + row.range, row.unit.empty() ? "" : ", " + row.unit,
             row.keyable ? ", may be keyed" : "", row.accuracy ? ", buys accuracy" : "");
         out += fmt::format("    {:<20} {}\n", "", row.doc);
     }
+    return out;
+}
+
+std::string textOf(const Technique& technique) {
+    std::string out = fmt::format("{} = \"{}\"\n    {}\n", keyOf(technique), technique.name, technique.doc)
+        + textOf(rows(technique.schema, technique.makeParams().get()));
     for (const auto& preset : technique.presets)
         out += fmt::format("    {:<20} {}\n",
             preset.name == "paper" ? "mode = \"paper\"" : fmt::format("preset = \"{}\"", preset.name), preset.doc);
     return out;
 }
+
+std::string textOf(const SettingsTable& table, std::string_view file) {
+    const std::string head = table.name.empty() ? fmt::format("{}: {}", file, table.doc)
+                                                : fmt::format("{} of {}: {}", table.name, file, table.doc);
+    return head + "\n" + textOf(rows(table.schema, table.defaults));
+}
+
+/// The table's last word: "[[light]] shadow" is asked for as "shadow".
+std::string topicOf(const SettingsTable& table) {
+    std::string name(table.name.substr(table.name.rfind(' ') + 1));
+    std::erase_if(name, [](char c) { return c == '[' || c == ']'; });
+    return name;
+}
+
+constexpr std::string_view kFrames = R"(frames
+    A scene declares them, and --frames of limn render chooses:
+        [animation]
+        frames = "1-240"
+        fps = 24
+    --frames takes 12, 1-100, 1-100x2 (every second), 10-1 (backwards) and lists of those: 1,5,9-12.
+    #### in output.path is the frame's number, with as many digits. A [[mesh]] file = "walk_####.obj" has a file for
+    each frame.
+
+    What "may be keyed" takes keyframes in place of a value, each of a frame and a value:
+        translate = { keys = [[1, [0, 0, 0]], [24, [2, 0, 0]]], interpolation = "linear" }
+    interpolation is linear (without it), constant or smooth. Before the first keyframe and after the last its value
+    stays. --set replaces all of them by one value.
+
+    A turntable of 120 frames, of which the last goes on with the first:
+        [animation]
+        frames = "1-120"
+        [[instance]]
+        mesh = "chair"
+        rotate = { keys = [[1, [0, 0, 0]], [121, [0, 360, 0]]] }
+)";
 
 std::string jsonOf(const Technique& technique) {
     std::string out = fmt::format("  {{\"slot\": {}, \"key\": {}, \"name\": {}, \"doc\": {}, \"parameters\": [",
@@ -104,28 +142,64 @@ std::string markdownOf(const Technique& technique) {
     return out + "\n";
 }
 
-ExitCode run(const std::string& name, const std::string& format) {
-    std::vector<const Technique*> chosen;
-    std::vector<std::string> names;
+std::string markdownOf(const SettingsTable& table) {
+    return fmt::format("### {}{}\n\n{}", table.name.empty() ? "" : fmt::format("`{}`: ", table.name), table.doc,
+        markdownTable(rows(table.schema, table.defaults)));
+}
+
+/// What a name stands for: techniques by their name or slot, tables of configs and scenes.
+struct Topic {
+    std::vector<const Technique*> techniques;
+    std::vector<SettingsTable> ofConfig, ofScene;
+    bool frames = false;
+    std::vector<std::string> names;  ///< that there are
+
+    bool empty() const { return techniques.empty() && ofConfig.empty() && ofScene.empty() && !frames; }
+};
+
+Topic findTopic(const std::string& name) {
+    Topic topic;
+    topic.names = {"config", "scene", "frames"};
     for (const auto* technique : allTechniques()) {
-        names.emplace_back(technique->name);
-        if (std::find(names.begin(), names.end(), std::string(technique->slot)) == names.end())
-            names.emplace_back(technique->slot);
-        if (name.empty() || technique->name == name || technique->slot == name) chosen.push_back(technique);
+        topic.names.emplace_back(technique->name);
+        if (std::find(topic.names.begin(), topic.names.end(), std::string(technique->slot)) == topic.names.end())
+            topic.names.emplace_back(technique->slot);
+        if (name.empty() || technique->name == name || technique->slot == name) topic.techniques.push_back(technique);
     }
-    if (chosen.empty())
-        throw Error(
-            ExitCode::usage, {}, fmt::format("there is no technique or slot '{}'", name), nameRemedy(name, names));
+    const auto choose = [&](const auto& tables, std::string_view file, std::vector<SettingsTable>& chosen) {
+        for (const auto& table : tables) {
+            if (!table.name.empty()) topic.names.push_back(topicOf(table));
+            if (name.empty() || name == file || (!table.name.empty() && name == topicOf(table)))
+                chosen.push_back(table);
+        }
+    };
+    choose(configTables(), "config", topic.ofConfig);
+    choose(sceneTables(), "scene", topic.ofScene);
+    topic.frames = name.empty() || name == "frames" || name == "animation";
+    return topic;
+}
+
+ExitCode run(const std::string& name, const std::string& format) {
+    const Topic topic = findTopic(name);
+    if (topic.empty())
+        throw Error(ExitCode::usage, {}, fmt::format("there is no technique, slot or table '{}'", name),
+            nameRemedy(name, topic.names));
     if (format == "markdown" && name.empty()) {
         fmt::print("{}", parameterReference());
         return ExitCode::done;
     }
     if (format == "json") {
-        fmt::print("{}", jsonOf(chosen));
+        fmt::print("{}", jsonOf(topic.techniques));
         return ExitCode::done;
     }
-    for (const auto* technique : chosen)
-        fmt::print("{}", format == "markdown" ? markdownOf(*technique) : textOf(*technique) + "\n");
+    const bool isMarkdown = format == "markdown";
+    for (const auto& table : topic.ofConfig)
+        fmt::print("{}\n", isMarkdown ? markdownOf(table) : textOf(table, "a config"));
+    for (const auto* technique : topic.techniques)
+        fmt::print("{}", isMarkdown ? markdownOf(*technique) : textOf(*technique) + "\n");
+    for (const auto& table : topic.ofScene)
+        fmt::print("{}\n", isMarkdown ? markdownOf(table) : textOf(table, "a scene"));
+    if (topic.frames) fmt::print("{}", kFrames);
     return ExitCode::done;
 }
 
@@ -133,10 +207,7 @@ ExitCode run(const std::string& name, const std::string& format) {
 
 std::string parameterReference() {
     std::string out = "# Parameter reference\n\nMade from the program's own tables.\n\n## Render config\n\n";
-    for (const auto& table : configTables())
-        out += fmt::format("### {}{}\n\n{}", table.name.empty() ? "" : fmt::format("`{}`: ", table.name), table.doc,
-                   markdownTable(rows(table.schema, nullptr)))
-            + "\n";
+    for (const auto& table : configTables()) out += markdownOf(table) + "\n";
     out += "## Techniques\n\n";
     for (const auto& slot : allSlots()) {
         out += fmt::format("{} Without a word about it: {}.\n\n", slot.doc,
@@ -145,10 +216,8 @@ std::string parameterReference() {
             if (technique->slot == slot.name) out += markdownOf(*technique);
     }
     out += "## Scene file\n\n";
-    for (const auto& table : sceneTables())
-        out += fmt::format("### {}{}\n\n{}", table.name.empty() ? "" : fmt::format("`{}`: ", table.name), table.doc,
-                   markdownTable(rows(table.schema, nullptr)))
-            + "\n";
+    for (const auto& table : sceneTables()) out += markdownOf(table) + "\n";
+    out += fmt::format("## Frames and keyframes\n\n```\n{}```\n\n", kFrames.substr(kFrames.find('\n') + 1));
     out += "## Images (AOVs)\n\n| name | format | meaning |\n|---|---|---|\n";
     for (const Aov* aov : allAovs())
         out += fmt::format("| `{}` | {} | {} |\n", aov->name, info(aov->format).name, aov->doc);
@@ -158,8 +227,9 @@ std::string parameterReference() {
 void addTechniques(CLI::App& app, Chosen& chosen) {
     auto name = std::make_shared<std::string>();
     auto format = std::make_shared<std::string>("text");
-    auto* command = app.add_subcommand("techniques", "List every slot, technique and parameter");
-    command->add_option("NAME", *name, "Only this technique, or this slot's");
+    auto* command =
+        app.add_subcommand("techniques", "List every table, slot, technique and parameter, with defaults and ranges");
+    command->add_option("NAME", *name, "Only this technique, slot or table: hbao, ao, camera, image, scene, frames");
     command->add_option("--format", *format, "text, json or markdown")
         ->check(CLI::IsMember({"text", "json", "markdown"}));
     command->callback([=, &chosen] { chosen = [=] { return run(*name, *format); }; });

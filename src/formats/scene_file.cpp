@@ -369,19 +369,22 @@ private:
 
 }  // namespace
 
-std::vector<SceneTable> sceneTables() {
-    return {{"", "top of the file", kHeader}, {"[units]", "what the numbers mean", kUnits},
-        {"[[mesh]]", "a mesh file", kMesh},
+std::vector<SettingsTable> sceneTables() {
+    return {{"", "top of the file", kHeader, defaultsOf<SceneHeader>()},
+        {"[units]", "what the numbers mean", kUnits, defaultsOf<Units>()},
+        {"[[mesh]]", "a mesh file", kMesh, defaultsOf<MeshSource>()},
         {"[[mesh]] subdivision", "draws the subdivision surface of the mesh; without it, its polygons as they are",
-            kSubdivision},
+            kSubdivision, defaultsOf<SubdivisionSettings>()},
         {"[[instance]]", "a mesh placed in the scene; without any, each mesh is drawn once where it was modelled",
-            kInstance},
-        {"[[camera]]", "a camera; without any, one that frames the scene", kCamera},
-        {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight},
-        {"[[light]] shadow", "shadow map of a light; without it the light casts none and costs none", kShadow},
-        {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial},
-        {"[[section]]", "a plane that cuts the scene open", kSection},
-        {"[animation]", "declared frames; without them the scene is a still", kAnimation}};
+            kInstance, defaultsOf<Instance>()},
+        {"[[camera]]", "a camera; without any, one that frames the scene", kCamera, defaultsOf<Camera>()},
+        {"[[light]]", "a light; without any, a sun over the camera's left shoulder", kLight, defaultsOf<Light>()},
+        {"[[light]] shadow", "shadow map of a light; without it the light casts none and costs none", kShadow,
+            defaultsOf<decltype(Light::shadow)>()},
+        {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial,
+            defaultsOf<Material>()},
+        {"[[section]]", "a plane that cuts the scene open", kSection, defaultsOf<Section>()},
+        {"[animation]", "declared frames; without them the scene is a still", kAnimation, defaultsOf<Animation>()}};
 }
 
 Scene parseScene(const Node& document, const std::filesystem::path& path) { return SceneReader(document, path).read(); }

@@ -6,12 +6,7 @@
 
 namespace limn {
 
-/// A table of scene files, for the parameter reference.
-struct SceneTable {
-    std::string_view name, doc;
-    Schema schema;
-};
-std::vector<SceneTable> sceneTables();
+std::vector<SettingsTable> sceneTables();
 
 /// Reads and checks a scene file; every problem at once (Errors). Files it names are not opened, but must exist. What
 /// was read, includes among it, is added to `files`.

@@ -157,7 +157,20 @@ private:
             throw Error(ExitCode::usage, {job.output.string()},
                 fmt::format("{} frames would be written to one file", frames.size()),
                 "put #### into the path: room_####.png");
+        tellBeyond(job, loaded, frames);
         for (const int frame : frames) attempt([&] { drawFrame(job, frame); });
+    }
+
+    /// Frames that no scene declares are drawn, with what the nearest declared one shows; asking for them may be a
+    /// slip.
+    void tellBeyond(const Job& job, const LoadedScene& loaded, const std::vector<int>& frames) const {
+        const auto& declared = loaded.scene.frames;
+        if (!declared) return;
+        const auto beyond = std::count_if(
+            frames.begin(), frames.end(), [&](int frame) { return frame < declared->first || frame > declared->last; });
+        if (beyond > 0)
+            log::warning("{}: {} of {} frames lie beyond {}-{}, which the scene declares", job.config.scene.string(),
+                beyond, frames.size(), declared->first, declared->last);
     }
 
     void drawFrame(const Job& job, int frame) {

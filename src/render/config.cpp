@@ -1,6 +1,7 @@
 #include "render/config.h"
 
 #include "base/file.h"
+#include "base/log.h"
 #include "base/text.h"
 #include "scene/frames.h"
 #include "settings/document.h"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <sstream>
 
 namespace limn {
 namespace {
@@ -113,11 +116,65 @@ std::vector<TechniqueChoice> readSlot(const Slot& slot, const Node& node, ErrorC
     return choices;
 }
 
+/// The table of a slot that a path names, and the slot's key: "edges.0" is an entry of the slot "edges", "ao.filter" a
+/// slot of its own. Null where there is no such table.
+std::pair<Node*, std::string> findTable(Node& document, const std::string& path) {
+    Node* node = &document;
+    std::string key;
+    std::istringstream parts(path);
+    const auto enter = [&](std::size_t entry) {
+        auto* list = std::get_if<Node::Array>(&node->value);
+        if (list) node = entry < list->size() ? &(*list)[entry] : nullptr;
+        return list != nullptr;
+    };
+    for (std::string word; node && std::getline(parts, word, '.');) {
+        const auto index = parseNumber(word);
+        if (enter(index ? static_cast<std::size_t>(*index) : 0) && index) continue;
+        if (node) node = node->find(word);
+        key += (key.empty() ? "" : ".") + word;
+    }
+    if (node) enter(0);
+    return {node && node->isTable() ? node : nullptr, key};
+}
+
+/// `--set ao.technique=NAME` puts another technique over the settings of the old one: those that it does not have are
+/// left out, and named.
+void dropForeignKeys(Node& document, const std::string& setting) {
+    const auto equals = setting.find('=');
+    const std::string path = setting.substr(0, equals);
+    constexpr std::string_view last = ".technique";
+    if (equals == std::string::npos || !path.ends_with(last)) return;
+    const auto [table, key] = findTable(document, path.substr(0, path.size() - last.size()));
+    const Slot* slot = nullptr;
+    for (const auto& candidate : allSlots())
+        if (candidate.key == key) slot = &candidate;
+    const Technique* technique = slot ? findTechnique(slot->name, setting.substr(equals + 1)) : nullptr;
+    if (!table || !technique) return;
+    std::set<std::string, std::less<>> known{"technique", "mode"};
+    for (const auto& field : technique->schema) known.emplace(field.name);
+    for (const auto& inner : allSlots())
+        if (inner.parent() == slot->key) known.emplace(inner.ownKey());
+    std::vector<std::string> dropped;
+    std::erase_if(std::get<Node::Table>(table->value), [&](const auto& entry) {
+        const std::string* preset = entry.first == "preset" ? entry.second.text() : nullptr;
+        const bool isForeign = !known.contains(entry.first)
+            && std::none_of(technique->presets.begin(), technique->presets.end(),
+                [&](const auto& p) { return preset && p.name == *preset; });
+        if (isForeign) dropped.push_back(entry.first);
+        return isForeign;
+    });
+    if (!dropped.empty())
+        log::warning("--set {}: without {}, which the config says of another technique", setting, joinAnd(dropped));
+}
+
 class ConfigReader {
 public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides)
         : document_(std::move(document)), overrides_(overrides) {
-        for (const auto& setting : overrides.settings) applySetting(document_, setting);
+        for (const auto& setting : overrides.settings) {
+            applySetting(document_, setting);
+            dropForeignKeys(document_, setting);
+        }
         config_.file = path;
         KeyBuilder key;
         key.add(canonicalText(document_)).add(overrides.camera).add(overrides.meshFile.subdivide.value_or(-1));
@@ -291,12 +348,13 @@ private:
 
 }  // namespace
 
-std::vector<ConfigTable> configTables() {
-    return {{"", "top of the file", kHeader},
+std::vector<SettingsTable> configTables() {
+    return {{"", "top of the file", kHeader, defaultsOf<Header>()},
         {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")",
-            kImage},
-        {"[sheet]", "paper to draw on, instead of image.size", kSheet},
-        {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput}};
+            kImage, defaultsOf<ImageSettings>()},
+        {"[sheet]", "paper to draw on, instead of image.size", kSheet, defaultsOf<Sheet>()},
+        {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput,
+            defaultsOf<EncodeOptions>()}};
 }
 
 std::string_view quickstartStyle() {

@@ -51,12 +51,8 @@ struct RenderConfig {
     const std::vector<TechniqueChoice>& in(std::string_view slot) const;
 };
 
-struct ConfigTable {
-    std::string_view name, doc;
-    Schema schema;
-};
 /// The tables that choose no technique, for the parameter reference.
-std::vector<ConfigTable> configTables();
+std::vector<SettingsTable> configTables();
 
 /// Settings of the command line, over a config.
 struct ConfigOverrides {

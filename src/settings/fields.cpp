@@ -585,6 +585,14 @@ void readTrack(const Node& node, const Field& field, void* object, std::vector<T
     tracks.push_back(std::move(track));
 }
 
+/// Is this [[frame, value], ...] without the table around it?
+bool looksLikeKeyframes(const Node& node) {
+    const auto isPair = [](const Node& pair) {
+        return pair.isArray() && pair.array().size() == 2 && pair.array()[0].isNumber();
+    };
+    return node.isArray() && !node.array().empty() && std::all_of(node.array().begin(), node.array().end(), isPair);
+}
+
 }  // namespace
 
 void readFields(const Node& table, Schema schema, void* object, std::vector<Track>* tracks, std::string_view what,
@@ -605,8 +613,11 @@ void readFields(const Node& table, Schema schema, void* object, std::vector<Trac
             readTrack(node, *field, object, *tracks, what, errors, code);
         } else if (auto problem = field->type().read(field->member(object), node, *field)) {
             std::string remedy = plain(field->doc);
-            errors.add({code, node.where, fmt::format("'{}' in {} {}", key, what, *problem),
-                remedy.empty() ? "" : fmt::format("{}: {}", key, remedy)});
+            if (tracks && looksLikeKeyframes(node))
+                remedy = "for keyframes write { keys = [[1, VALUE], [24, VALUE]] }";
+            else if (!remedy.empty())
+                remedy = fmt::format("{}: {}", key, remedy);
+            errors.add({code, node.where, fmt::format("'{}' in {} {}", key, what, *problem), std::move(remedy)});
         }
     }
     for (const auto& field : schema)

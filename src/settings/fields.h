@@ -194,6 +194,21 @@ struct Keyed {
     bool moves() const { return !tracks.empty(); }
 };
 
+/// A table of a config or scene file, for the parameter reference.
+struct SettingsTable {
+    std::string_view name;  ///< "[[camera]]", or "[[light]] shadow" within another; empty: the top of the file
+    std::string_view doc;
+    Schema schema;
+    const void* defaults;  ///< an object with the schema's defaults
+};
+
+/// An object that nothing has been said about.
+template <class T>
+const void* defaultsOf() {
+    static const T instance{};
+    return &instance;
+}
+
 // --- Reading
 
 /// Reads the entries of `table` that `schema` names into `object`. Keyframes go to `tracks`; the object then holds the

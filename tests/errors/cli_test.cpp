@@ -150,6 +150,77 @@ TEST_F(Errors, missingAndBrokenFiles) {
     expect("render loop.toml", 64, "includes itself");
 }
 
+TEST_F(Errors, whatCannotBeWrittenOrReadIsSaidBeforeDrawing) {
+    expect("render config.toml --stats config.toml/stats.json", 73, "making the folder failed");
+    expect("render config.toml --shader-dir .", 66, "holds no shaders of limn");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST_F(Errors, whatWouldTakeTooMuchIsRefusedBeforeItIsTaken) {
+    std::string grid;  // a cage of 1024 faces
+    for (int y = 0; y <= 32; ++y)
+        for (int x = 0; x <= 32; ++x) grid += fmt::format("v {} {} 0\n", x, y);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const int first = y * 33 + x + 1;
+            grid += fmt::format("f {} {} {} {}\n", first, first + 1, first + 34, first + 33);
+        }
+    write("grid.obj", grid);
+    for (const char* subdivision :
+        {"level = 9", "level = 10", "edge_length = '1e-308'", "level = 10, scheme = 'bilinear'"}) {
+        write(
+            "fine.toml", fmt::format("[[mesh]]\nname = 'm'\nfile = 'grid.obj'\nsubdivision = {{ {} }}\n", subdivision));
+        expect("render config.toml --memory-limit 4G --set scene=fine.toml", 33, "subdivision makes ");
+    }
+    EXPECT_EQ(run("render config.toml --memory-limit lots").exitCode, 64);
+    expect("render config.toml --set frames=1-999999999", 64, "at most 1000000 frames");
+    expect("render config.toml --frames 1-999999999", 64, "at most 1000000 frames");
+    expect("render /dev/zero", 66, "longer than 64 MiB");
+    // Fits: several tiles of one picture.
+    EXPECT_EQ(
+        run("render config.toml --memory-limit 2G --set image.size=[2000,1500] --set image.tile=256").exitCode, 0);
+}
+
+TEST_F(Errors, anotherTechniqueTakesWhatFits) {
+    write("toon.toml", kConfig + "[shading]\ntechnique = 'toon'\nbands = 3\nfloor = 0.5\n[[edges]]\ntechnique = "
+                                 "'depth_normal'\nwidth = '3px'\ncreases = 0\n");
+    const RunResult paper = run("render toon.toml --set shading.technique=paper");
+    EXPECT_EQ(paper.exitCode, 0) << paper.err;
+    EXPECT_NE(paper.err.find("--set shading.technique=paper: without bands and floor"), std::string::npos) << paper.err;
+    const RunResult lines = run("render toon.toml --set edges.0.technique=laplacian");
+    EXPECT_EQ(lines.exitCode, 0) << lines.err;
+    EXPECT_NE(lines.err.find("without creases,"), std::string::npos) << lines.err;
+    // The same technique, and what is wrong in any.
+    EXPECT_EQ(run("render toon.toml --set shading.technique=toon").err.find("without"), std::string::npos);
+    expect("render toon.toml --set shading.bands=paper", 64, "'bands'");
+}
+
+TEST_F(Errors, framesAndKeyframes) {
+    write("scene.toml",
+        "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n[[instance]]\nmesh = 'm'\ntranslate = [[1, [0, 0, 0]], "
+        "[24, [2, 0, 0]]]\n");
+    expect("render config.toml", 64, "for keyframes write { keys = [[1, VALUE], [24, VALUE]] }");
+    write("scene.toml", "[animation]\nframes = '1-3'\n[[mesh]]\nname = 'm'\nfile = 'm.obj'\n");
+    const RunResult beyond = run("render config.toml --frames 2-5 --output out/p_#.png");
+    EXPECT_EQ(beyond.exitCode, 0);
+    EXPECT_NE(beyond.err.find("2 of 4 frames lie beyond 1-3"), std::string::npos) << beyond.err;
+    EXPECT_EQ(run("render config.toml --output out/p_#.png").err.find("beyond"), std::string::npos);
+}
+
+TEST_F(Errors, techniquesKnowsTables) {
+    for (const char* topic : {"camera", "frames", "sheet", "scene", "config", "image", "shadow", "hbao", "edges"}) {
+        const RunResult text = run(std::string("techniques ") + topic);
+        EXPECT_EQ(text.exitCode, 0) << topic;
+        EXPECT_GT(text.out.size(), 200u) << topic;
+    }
+    EXPECT_NE(run("techniques camera").out.find("focal_length"), std::string::npos);
+    EXPECT_EQ(run("techniques camera").out.find("hbao"), std::string::npos);
+    const std::string everything = run("techniques").out;
+    for (const char* key : {"focal_length", "hatch_angle", "line_samples", "resolution", "keyframes", "texture_filter"})
+        EXPECT_NE(everything.find(key), std::string::npos) << key;
+    expect("techniques camra", 64, "did you mean 'camera'?");
+}
+
 TEST_F(Errors, placesThatCannotBeWritten) {
     write("file", "in the way");
     const RunResult r = run("render config.toml --output file/picture.png");
