@@ -25,7 +25,7 @@ const Change kChanges[] = {
     {"Holes.ofEverythingLeaveWhatLiesBehind", "values 1"},  // a plane that fills the picture, whatever the lens
     {"Holes.ofNothingChangeNothing", "lens 2"},
     {"Holes.keepTheirShareInTheDistance", "lens 2"},
-    {"Occlusion.halfResolutionAgreesInTheMean", "values 2"},
+    {"Occlusion.halfResolutionAgrees", "values 2"},
     {"Occlusion.ofAPartOfTheSamplesIsNoisierAndNothingElse", "lens 3"},
     {"Picture.transparentPicturesCompositeToOpaqueOnes", "lens 2"},
     {"Picture.aCropIsThatPartOfTheWhole", "lens 2"},
