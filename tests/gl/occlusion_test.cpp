@@ -147,6 +147,14 @@ TEST(Occlusion, pointsHideTheirShare) {
     });
     EXPECT_NEAR(
         1 - openness("technique = 'toon_ssao'\npoints = 64\nrange_check = false", 45, 0.15, 0.25, camera), ball, 0.02);
+    // With the reach in the picture a point's height says nothing: hidden is what falls beyond the slope's foot. Of a
+    // ball's volume that is the cap beyond t radii, (2 - 3 t + t³) / 4. The picture is 7.5 units wide.
+    constexpr double t = 0.2;
+    EXPECT_NEAR(1
+            - openness("technique = 'toon_ssao'\npoints = 64\nrange_check = false\nradius_in = 'image'\n"
+                       "image_radius = 0.1333333",
+                45, 0.15, 0.25, camera),
+        (2 - 3 * t + t * t * t) / 4, 0.02);
 }
 
 /// What the occlusion function f(Δ) = Δ, with Δ in radii of 2, hides of flat ground: the mean height of neighbours at

@@ -54,7 +54,7 @@ SUITES = (
     ("unit", "-Style.*:Arrows.*:Shapes.*"),
     ("golden", "*"),
     ("stability", "*"),
-    ("gl", "-Truth.*:*Cycles*:Culling.changesNoBit:*OneSide*"),
+    ("gl", "-*Cycles*:*OneSide*"),
     ("cost", "*"),
 )
 
