@@ -264,5 +264,25 @@ TEST(Sections, showFilledFacesUnderHeavierLines) {
     EXPECT_THROW(red("sections = ['B']\n"), Error);
 }
 
+TEST(Sections, areHatchedAsDenselyAsTheySay) {
+    // Of a face, lines of a width at a distance cover their quotient, also where they are thinner than a pixel.
+    for (const auto& [width, spacing, angle] :
+        {std::tuple{2.0, 8.0, 30.0}, {0.5, 8.0, 45.0}, {3.0, 7.0, 0.0}, {1.0, 5.0, 90.0}}) {
+        const LoadedScene scene = makeScene(
+            fmt::format(
+                "[[mesh]]\nname = 'o'\nfile = 'o.obj'\n[[section]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfill = "
+                "'#000000'\nhatch = '{}px'\nhatch_width = '{}px'\nhatch_angle = {}\nhatch_color = '#ffffff'\n",
+                spacing, width, angle)
+                + cameraToml({0, 0, 9}, {0, 0, 0}, "orthographic_height = 8"),
+            {{"o.obj", boxObj({-20, -20, -2}, {20, 20, 2})}});
+        const Picture p =
+            draw(makeConfig("[image]\nsize = [560, 560]\nsamples = 1\n[output]\naovs = ['albedo']\n"), scene);
+        double sum = 0;
+        for (std::size_t i = 0; i < p.aov("albedo").pixels.size(); i += 4) sum += p.aov("albedo").pixels[i];
+        // 560 pixels are a whole number of distances along the axes, and many at other angles.
+        EXPECT_NEAR(sum / (560 * 560), width / spacing, 0.01 * width / spacing) << width << " of " << spacing;
+    }
+}
+
 }  // namespace
 }  // namespace limn::test
