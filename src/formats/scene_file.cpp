@@ -107,6 +107,9 @@ constexpr Field kSubdivision[] = {
         "Rims of open meshes: none (faces at the rim vanish), edge_only (rounded corners), edge_and_corner, or what "
         "the file says."),
     field<&SubdivisionSettings::uvBoundary>("uv_boundary", "Where texture coordinates stay straight."),
+    field<&SubdivisionSettings::weld>("weld",
+        "Join edges of one part that lie in the same place, as where files are split along seams of texture "
+        "coordinates; false: such seams tear open."),
     field<&SubdivisionSettings::creaseMethod>("crease_method", "How semi-sharp creases soften: normal or chaikin."),
 };
 

@@ -48,8 +48,6 @@ HalfEdgeFacts askOpenMesh(const PolyMesh& mesh, double featureAngleDegrees) {
     for (const auto e : half.edges())
         if (!half.is_boundary(e) && std::abs(half.calc_dihedral_angle(e)) > glm::radians(featureAngleDegrees))
             ++facts.featureEdges;
-    for (const auto v : half.vertices())
-        if (!half.is_manifold(v)) ++facts.nonManifoldVertices;
     return facts;
 }
 

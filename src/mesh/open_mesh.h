@@ -8,7 +8,6 @@ namespace limn {
 struct HalfEdgeFacts {
     std::size_t boundaryLoops = 0;
     std::size_t featureEdges = 0;  ///< interior edges with a dihedral angle beyond the one asked for
-    std::size_t nonManifoldVertices = 0;
     std::size_t refusedFaces = 0;  ///< that half-edges cannot represent; they are left out of the other counts
 };
 

@@ -3,6 +3,8 @@
 #include "mesh/open_mesh.h"
 #include "mesh/tri_mesh.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -173,10 +175,10 @@ Components findComponents(const PolyMesh& mesh) {
     return components;
 }
 
-void repairTopology(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
-    if (const std::size_t dropped = dropDuplicates(mesh); dropped > 0)
-        warnings.push_back({"face that repeats another one; dropped", dropped, 0});
+namespace {
 
+/// Turns faces around so that neighbours are wound alike, as few as possible in each piece.
+void windAlike(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
     const EdgeTable table = findEdges(mesh);
     const auto disagrees = [&](const MeshEdge& edge) {
         return edge.useCount == 2 && table.uses[edge.firstUse].forward == table.uses[edge.firstUse + 1].forward;
@@ -217,7 +219,146 @@ void repairTopology(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
             ++turnedFaces;
         }
     }
-    if (turnedFaces > 0) warnings.push_back({"face wound against its neighbours; turned around", turnedFaces, 0});
+    if (turnedFaces > 0) warnings.push_back({"face wound against its neighbours; turned around", turnedFaces, 0, {}});
+}
+
+/// Newell's normal of a face: its length is twice the area.
+glm::dvec3 areaOf(const PolyMesh& mesh, std::size_t face) {
+    const std::uint32_t start = mesh.faceStart[face], end = mesh.faceStart[face + 1];
+    const glm::dvec3& first = mesh.positions[mesh.cornerPosition[start]];
+    glm::dvec3 area(0);
+    for (std::uint32_t c = start + 1; c + 1 < end; ++c)
+        area += glm::cross(
+            mesh.positions[mesh.cornerPosition[c]] - first, mesh.positions[mesh.cornerPosition[c + 1]] - first);
+    return area;
+}
+
+/// How far a corner's normal points to its face's side: the sign counts.
+double towardsFace(const PolyMesh& mesh, std::uint32_t corner, const glm::dvec3& area) {
+    const std::int32_t normal = mesh.cornerNormal[corner];
+    return normal == PolyMesh::kNone ? 0 : glm::dot(glm::dvec3(mesh.normals[static_cast<std::size_t>(normal)]), area);
+}
+
+bool hasNormalsAgainst(const PolyMesh& mesh) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.faceCount(), 1 << 14), false,
+        [&](const auto& range, bool found) {
+            for (std::size_t f = range.begin(); f != range.end() && !found; ++f) {
+                const glm::dvec3 area = areaOf(mesh, f);
+                for (std::uint32_t c = mesh.faceStart[f]; c < mesh.faceStart[f + 1]; ++c)
+                    found = found || towardsFace(mesh, c, area) < 0;
+            }
+            return found;
+        },
+        [](bool a, bool b) { return a || b; });
+}
+
+}  // namespace
+
+void turnNormals(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
+    if (mesh.cornerNormal.empty() || !hasNormalsAgainst(mesh)) return;
+    windAlike(mesh, warnings);
+    // A vertex is a position with a normal; all its faces vote. Single faces may lie beyond a right angle of the normal
+    // that they share, where a smooth shape is coarse.
+    struct Vote {
+        std::uint32_t position, corner;
+        std::int32_t normal;
+        double towards;
+    };
+    std::vector<Vote> votes;
+    votes.reserve(mesh.cornerPosition.size());
+    for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+        const glm::dvec3 area = areaOf(mesh, f);
+        for (std::uint32_t c = mesh.faceStart[f]; c < mesh.faceStart[f + 1]; ++c)
+            votes.push_back({mesh.cornerPosition[c], c, mesh.cornerNormal[c], towardsFace(mesh, c, area)});
+    }
+    const auto vertex = [](const Vote& v) { return std::pair(v.position, v.normal); };
+    tbb::parallel_sort(votes.begin(), votes.end(), [&](const Vote& a, const Vote& b) {
+        return vertex(a) != vertex(b) ? vertex(a) < vertex(b) : a.corner < b.corner;
+    });
+    std::vector<std::int32_t> opposite(mesh.normals.size(), PolyMesh::kNone);
+    std::size_t turned = 0;
+    for (std::size_t i = 0, end = 0; i < votes.size(); i = end) {
+        double sum = 0;
+        for (end = i; end < votes.size() && vertex(votes[end]) == vertex(votes[i]); ++end) sum += votes[end].towards;
+        if (!(sum < 0)) continue;
+        ++turned;
+        auto& other = opposite[static_cast<std::size_t>(votes[i].normal)];
+        if (other == PolyMesh::kNone) {
+            other = static_cast<std::int32_t>(mesh.normals.size());
+            mesh.normals.push_back(-mesh.normals[static_cast<std::size_t>(votes[i].normal)]);
+        }
+        for (std::size_t v = i; v < end; ++v) mesh.cornerNormal[votes[v].corner] = other;
+    }
+    if (turned > 0) warnings.push_back({"vertex normal that points against its faces; turned around", turned, 0, {}});
+}
+
+std::size_t joinSeams(PolyMesh& mesh) {
+    struct Rim {
+        std::uint32_t part, low, high;  ///< the ends' positions, ordered by where they lie
+    };
+    const auto place = [&](std::uint32_t v) {
+        const glm::dvec3 p = mesh.positions[v] + 0.0;  // -0 lies where 0 does
+        return std::tuple(p.x, p.y, p.z);
+    };
+    const EdgeTable table = findEdges(mesh);
+    std::vector<Rim> rims;
+    for (const auto& edge : table.edges) {
+        if (edge.useCount != 1 || place(edge.a) == place(edge.b)) continue;
+        const bool isOrdered = place(edge.a) < place(edge.b);
+        rims.push_back(
+            {mesh.facePart[table.uses[edge.firstUse].face], isOrdered ? edge.a : edge.b, isOrdered ? edge.b : edge.a});
+    }
+    const auto key = [&](const Rim& rim) { return std::tuple(rim.part, place(rim.low), place(rim.high)); };
+    tbb::parallel_sort(rims.begin(), rims.end(), [&](const Rim& x, const Rim& y) {
+        const auto a = key(x), b = key(y);
+        return a != b ? a < b : std::pair(x.low, x.high) < std::pair(y.low, y.high);
+    });
+    DisjointSets sets(mesh.positions.size());
+    for (std::size_t i = 0, end = 0; i < rims.size(); i = end) {
+        for (end = i + 1; end < rims.size() && key(rims[end]) == key(rims[i]);) ++end;
+        if (end - i != 2) continue;
+        sets.join(rims[i].low, rims[i + 1].low);
+        sets.join(rims[i].high, rims[i + 1].high);
+    }
+    std::vector<char> isUsed(mesh.positions.size());
+    for (const auto v : mesh.cornerPosition) isUsed[v] = 1;
+    std::size_t joined = 0;
+    for (std::uint32_t v = 0; v < isUsed.size(); ++v) joined += isUsed[v] && sets.root(v) != v;
+    if (joined == 0) return 0;
+    const auto rename = [&](std::uint32_t& v) { v = static_cast<std::uint32_t>(sets.root(v)); };
+    for (auto& v : mesh.cornerPosition) rename(v);
+    for (auto& crease : mesh.tags.creases) {
+        rename(crease.a);
+        rename(crease.b);
+    }
+    for (auto& corner : mesh.tags.corners) rename(corner.vertex);
+    return joined;
+}
+
+void repairTopology(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
+    if (const std::size_t dropped = dropDuplicates(mesh); dropped > 0)
+        warnings.push_back({"face that repeats another one; dropped", dropped, 0, {}});
+    windAlike(mesh, warnings);
+}
+
+/// Vertices whose faces form more than one fan: corners around a vertex hang together across edges of two faces.
+static std::size_t countBowTies(const PolyMesh& mesh, const EdgeTable& table) {
+    DisjointSets fans(mesh.cornerPosition.size());
+    const auto next = [&](const EdgeUse& use) {
+        const std::uint32_t end = mesh.faceStart[use.face + 1];
+        return use.corner + 1 < end ? use.corner + 1 : mesh.faceStart[use.face];
+    };
+    for (const auto& edge : table.edges)
+        for (std::uint32_t u = edge.firstUse + 1; u < edge.firstUse + edge.useCount; ++u) {
+            const EdgeUse &one = table.uses[edge.firstUse], &other = table.uses[u];
+            // The corner at edge.a is where a use begins that runs from there, and the next one of a use towards it.
+            fans.join(one.forward ? one.corner : next(one), other.forward ? other.corner : next(other));
+            fans.join(one.forward ? next(one) : one.corner, other.forward ? next(other) : other.corner);
+        }
+    std::vector<std::uint32_t> count(mesh.positions.size(), 0);
+    for (std::uint32_t c = 0; c < mesh.cornerPosition.size(); ++c) count[mesh.cornerPosition[c]] += fans.root(c) == c;
+    return static_cast<std::size_t>(std::count_if(count.begin(), count.end(), [](auto n) { return n > 1; }));
 }
 
 TopologyReport analyseTopology(const PolyMesh& mesh) {
@@ -251,17 +392,12 @@ TopologyReport analyseTopology(const PolyMesh& mesh) {
     for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
         const std::uint32_t start = mesh.faceStart[f], end = mesh.faceStart[f + 1];
         report.largestFace = std::max<std::size_t>(report.largestFace, end - start);
-        glm::dvec3 area(0);
-        const auto& origin = mesh.positions[mesh.cornerPosition[start]];
-        for (std::uint32_t c = start + 1; c + 1 < end; ++c)
-            area += glm::cross(
-                mesh.positions[mesh.cornerPosition[c]] - origin, mesh.positions[mesh.cornerPosition[c + 1]] - origin);
-        if (glm::length(area) == 0) ++report.degenerateFaces;
+        if (glm::length(areaOf(mesh, f)) == 0) ++report.degenerateFaces;
     }
     const HalfEdgeFacts facts = askOpenMesh(mesh, kSmoothAngleDegrees);
     report.boundaryLoops = facts.boundaryLoops;
     report.featureEdges = facts.featureEdges;
-    report.nonManifoldVertices = facts.nonManifoldVertices;
+    report.nonManifoldVertices = countBowTies(mesh, table);
     return report;
 }
 

@@ -51,6 +51,16 @@ Components findComponents(const PolyMesh& mesh);
 /// without lines.
 void repairTopology(PolyMesh& mesh, std::vector<MeshWarning>& warnings);
 
+/// Joins what exporters split along seams of texture coordinates: where exactly two boundary edges of one part lie in
+/// the same place, their ends become the same positions; texture coordinates stay each corner's own. Returns how many
+/// positions have gone into others.
+std::size_t joinSeams(PolyMesh& mesh);
+
+/// Turns normals around that point against the faces of their vertex on the whole, after faces have been wound alike:
+/// scans have such, and meshes mirrored by programs that forgot one of the two. Adds warnings without lines. Costs a
+/// look at each corner where there are none.
+void turnNormals(PolyMesh& mesh, std::vector<MeshWarning>& warnings);
+
 struct TopologyReport {
     std::size_t vertices = 0;  ///< that faces use
     std::size_t unusedVertices = 0;

@@ -102,6 +102,7 @@ struct SubdivisionSettings {
     BoundaryName boundary = BoundaryName::file;
     UvBoundaryName uvBoundary = UvBoundaryName::file;
     CreaseMethodName creaseMethod = CreaseMethodName::file;
+    bool weld = true;  ///< join what is split along seams of texture coordinates
 
     /// The value of edgeLength, in pixels or scene units. Nullopt when it is empty or no length.
     struct EdgeLength {

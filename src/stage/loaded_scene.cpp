@@ -39,14 +39,25 @@ MeshFile readMesh(const MeshSource& source, int frame) {
         for (const auto& file : sidecar) key.add(MappedFile(file).text());
         mesh.files.insert(mesh.files.end(), sidecar.begin(), sidecar.end());
     }
+    const auto note = [&](std::string_view kind, std::size_t count) {
+        if (count == 0) return;
+        MeshWarning& warning = mesh.warnings.emplace_back();
+        warning.kind = kind;
+        warning.count = count;
+    };
     // An animation may begin or end with nothing.
-    if (!source.perFrame)
-        requireFaces(mesh);
-    else if (mesh.poly.faceCount() == 0)
-        mesh.warnings.push_back({"there are no faces; an empty frame", 1, 0, {}});
+    if (!source.perFrame) requireFaces(mesh);
+    note("there are no faces; an empty frame", mesh.poly.faceCount() == 0);
+    const bool welds = source.subdivision.present && source.subdivision.weld;
     const bool repairs = source.subdivision.present || mesh.poly.cornerNormal.empty();
-    if (repairs) repairTopology(mesh.poly, mesh.warnings);
-    mesh.key = key.add(repairs).key();
+    if (welds)
+        note("vertex in the place of another one on the rim; joined (weld = false keeps them apart)",
+            joinSeams(mesh.poly));
+    if (repairs)
+        repairTopology(mesh.poly, mesh.warnings);
+    else
+        turnNormals(mesh.poly, mesh.warnings);
+    mesh.key = key.add(repairs).add(welds).key();
     for (const auto& p : mesh.poly.positions) mesh.bounds.add(p);
     return mesh;
 }

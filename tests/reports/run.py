@@ -203,6 +203,41 @@ def far_from_the_origin_16():
 
 
 @report
+def smooth_balls_12():
+    picture, _ = draw(folder("12") + "/draw.toml")
+    # The first three are smooth: nothing as dark as a line well inside them.
+    for left in (0, 1, 2):
+        middle = 108 + 221 * left
+        inside = [(x, y) for x in range(-75, 76) for y in range(-75, 76) if x * x + y * y < 75 * 75]
+        darkest = min(min(picture.at(middle + x, 125 + y)) for x, y in inside)
+        assert darkest > 100, "a line in ball %d" % left
+
+
+@report
+def split_seams_26():
+    picture, said = draw(folder("26") + "/draw.toml")
+    assert said.count("split.obj: vertex in the place of another one on the rim; joined") == 1, said
+    covered = picture.covered()
+    welded = {(y, x) for y, x in covered if y < 230 and x < 220}
+    # Beside it, 244 pixels further, with the same ball's outline; the camera looks at both at other angles.
+    split = {(y, x) for y, x in covered if y < 230 and 240 < x < 450}
+    assert abs(len(welded) - len(split)) < 0.02 * len(welded), (len(welded), len(split))
+    _, facts = run("mesh", folder("26") + "/bowtie.obj")
+    assert "1 non-manifold vertices" in facts, facts
+
+
+@report
+def scan_normals_33():
+    picture, said = draw(folder("33") + "/draw.toml")
+    assert said.count("vertex normal that points against its faces; turned around") == 1, said
+    # Lit from the upper right: the same light on each of the nine.
+    for ball in range(9):
+        middle = 95 + 163.7 * ball
+        light, shade = picture.at(middle + 25, 65), picture.at(middle - 35, 125)
+        assert min(light) > max(shade) + 30, "ball %d: %s and %s" % (ball, light, shade)
+
+
+@report
 def odd_structure_28():
     for path in sorted(glob.glob(folder("28") + "/*.[oO][bB][jJ]")):
         name = os.path.basename(path)

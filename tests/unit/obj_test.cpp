@@ -1,5 +1,6 @@
 #include "formats/obj.h"
 #include "base/error.h"
+#include "mesh/topology.h"
 #include "mesh/tri_mesh.h"
 
 #include <fmt/format.h>
@@ -200,6 +201,87 @@ TEST(TriMesh, farFromTheOriginKeepsItsShape) {
         parse("v 1e8 1e8 0\nv 100000001 1e8 0\nv 100000001 100000001 0\nv 1e8 100000001 0\nf 1 2 3 4\n").mesh, {});
     EXPECT_EQ(near.positions, far.positions);
     EXPECT_EQ(far.pivot - near.pivot, glm::dvec3(1e8, 1e8, 0));
+}
+
+/// A cylinder of `sides` quads around, cut open along one line, whose ends lie in the same place.
+std::string splitTube(int sides, const char* last = "") {
+    std::string text;
+    for (int s = 0; s <= sides; ++s) {
+        const double turn = 2 * std::acos(-1.0) * (s % sides) / sides;
+        text += fmt::format("v {0} 0 {1}\nv {0} 1 {1}\n", std::cos(turn), std::sin(turn));
+    }
+    for (int s = 0; s < sides; ++s)
+        text +=
+            fmt::format("{}f {} {} {} {}\n", s + 1 == sides ? last : "", 2 * s + 1, 2 * s + 2, 2 * s + 4, 2 * s + 3);
+    return text;
+}
+
+TEST(Seams, thatLieInOnePlaceAreJoined) {
+    PolyMesh tube = parse(splitTube(8)).mesh;
+    EXPECT_EQ(analyseTopology(tube).boundaryEdges, 8u * 2 + 2);
+    EXPECT_EQ(joinSeams(tube), 2u);
+    EXPECT_EQ(analyseTopology(tube).boundaryEdges, 8u * 2);
+    EXPECT_EQ(joinSeams(tube), 0u) << "once is enough";
+    // -0 lies where 0 does.
+    PolyMesh sheet = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv -0.0 0 0\nv 1 0 -0.0\nv 1 -1 0\nf 1 2 3\nf 5 4 6\n").mesh;
+    EXPECT_EQ(joinSeams(sheet), 2u);
+    // Parts that touch stay apart, and so do three sheets that meet in one line.
+    PolyMesh parts = parse(splitTube(8, "o other\n")).mesh;
+    EXPECT_EQ(joinSeams(parts), 0u);
+    PolyMesh three = parse(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 -1 0\n"
+        "f 1 2 3\nf 4 5 6\nf 7 8 9\n")
+                         .mesh;
+    EXPECT_EQ(joinSeams(three), 0u);
+    // Creases follow their vertices.
+    PolyMesh creased = parse(splitTube(4) + "t crease 2/1/0 8 9 3.0\n").mesh;
+    ASSERT_EQ(creased.tags.creases.size(), 1u);
+    EXPECT_EQ(joinSeams(creased), 2u);
+    EXPECT_EQ(std::max(creased.tags.creases[0].a, creased.tags.creases[0].b), 1u) << "8 and 9 became 0 and 1";
+}
+
+TEST(Topology, countsVerticesOfSeveralFans) {
+    const auto count = [](const std::string& faces) {
+        return analyseTopology(parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\n" + faces).mesh)
+            .nonManifoldVertices;
+    };
+    EXPECT_EQ(count("f 1 2 3\nf 1 3 4\n"), 0u) << "a fan";
+    EXPECT_EQ(count("f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n"), 0u) << "a closed one";
+    EXPECT_EQ(count("f 1 2 3\nf 1 4 5\n"), 1u) << "two";
+    EXPECT_EQ(count("f 1 2 3\nf 1 3 2\nf 1 4 5\nf 1 5 4\n"), 1u) << "two closed ones";
+    EXPECT_EQ(count("f 1 2 3\nf 1 3 4\nf 1 3 6\n"), 0u) << "three faces on one edge hang together";
+    EXPECT_EQ(count("f 1 2 3\nf 3 4 1\n"), 0u) << "however they are wound";
+    EXPECT_EQ(count("f 2 1 3\nf 1 3 4\n"), 0u);
+}
+
+TEST(Normals, thatPointAgainstTheirFacesAreTurned) {
+    const auto square = [](const std::string& faces) {
+        return parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 -1\n" + faces).mesh;
+    };
+    const auto upwards = [](const PolyMesh& mesh) {
+        std::size_t count = 0;
+        for (const auto n : mesh.cornerNormal) count += mesh.normals[static_cast<std::size_t>(n)].z > 0;
+        return count;
+    };
+    std::vector<MeshWarning> warnings;
+    PolyMesh sound = square("f 1//1 2//1 3//1 4//1\n");
+    turnNormals(sound, warnings);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_EQ(sound.normals.size(), 2u) << "nothing is added where nothing is wrong";
+    PolyMesh all = square("f 1//2 2//2 3//2 4//2\n");
+    turnNormals(all, warnings);
+    EXPECT_EQ(upwards(all), 4u);
+    PolyMesh one = square("f 1//1 2//2 3//1 4//1\n");
+    turnNormals(one, warnings);
+    EXPECT_EQ(upwards(one), 4u);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_EQ(warnings[0].count, 4u);
+    EXPECT_EQ(warnings[1].count, 1u);
+    // A face wound against its neighbour is turned itself, for its normals are right.
+    PolyMesh wound = square("f 1//1 2//1 3//1\nf 1//1 4//1 3//1\n");
+    turnNormals(wound, warnings);
+    EXPECT_EQ(upwards(wound), 6u);
+    EXPECT_EQ(warnings.size(), 3u);
 }
 
 }  // namespace
