@@ -195,6 +195,23 @@ TEST(TriMesh, missingNormalsAreSmoothByAngleOrGroup) {
     EXPECT_EQ(vertices(20, "s off\n"), 8u);
 }
 
+TEST(TriMesh, numbersTrianglesByTheirLastVertexWithFewRepeats) {
+    // A grid has half as many vertices as triangles: each can be the last one of a triangle.
+    std::string text;
+    constexpr int n = 40;
+    for (int y = 0; y <= n; ++y)
+        for (int x = 0; x <= n; ++x) text += fmt::format("v {} {} {}\n", x, y, (x * y) % 3);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            text += fmt::format("f {0} {1} {2}\nf {0} {2} {3}\n", y * (n + 1) + x + 1, y * (n + 1) + x + 2,
+                (y + 1) * (n + 1) + x + 2, (y + 1) * (n + 1) + x + 1);
+    const PolyMesh mesh = parse(text).mesh;
+    const TriMesh made = buildTriMesh(mesh, {});
+    ASSERT_EQ(made.triangleCount(), 2u * n * n);
+    for (std::uint32_t t = 0; t < made.triangleCount(); ++t) ASSERT_EQ(made.indices[std::size_t{3} * t + 2], t);
+    EXPECT_LE(made.positions.size(), made.triangleCount() + 4) << "the grid's corners";
+}
+
 TEST(TriMesh, farFromTheOriginKeepsItsShape) {
     const auto near = buildTriMesh(parse(kSquare + std::string("f 1 2 3 4\n")).mesh, {});
     const auto far = buildTriMesh(
