@@ -178,5 +178,68 @@ TEST_F(Holes, haveLinesAlongThem) {
     EXPECT_NEAR(weight, 2 * 3.14159265 * 18, 8) << "once around; texels make its way a little longer";
 }
 
+/// A square from -1 to 1 with these texture coordinates at its corners, seen from above, with a picture of 2 × 2
+/// texels: red and green below, blue and white above.
+Image textured(const std::string& material, double low, double high, const char* more = "") {
+    const TemporaryFolder folder;
+    const auto write = [&](const char* name, std::string_view text) { replaceFile(folder.path() / name, text); };
+    using namespace std::string_literals;
+    write("t.ppm", "P6 2 2 255\n\0\0\xff\xff\xff\xff\xff\0\0\0\xff\0"s);
+    write("q.obj",
+        fmt::format("vt {0} {0}\nvt {1} {0}\nvt {1} {1}\nvt {0} {1}\n", low, high)
+            + "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1/1 2/2 3/3 4/4\n");
+    write("scene.toml",
+        "[[mesh]]\nname = 'q'\nfile = 'q.obj'\n[[instance]]\nmesh = 'q'\nmaterial = 'a'\n[[material]]\nname = "
+        "'a'\ncolor = '#ffffff'\ntexture = 't.ppm'\n"
+            + material + "\n" + cameraToml({0, 0, 5}, {0, 0, 0}, "orthographic_height = 2"));
+    return draw(makeConfig(std::string(more) + "[image]\nsize = [80, 80]\nsamples = 1\n[output]\naovs = ['albedo']\n"),
+        loadScene(folder.path() / "scene.toml"))
+        .aov("albedo");
+}
+
+TEST(Textures, arePlacedAsTheirCoordinatesWouldBe) {
+    for (const char* accuracy : {"accuracy = 'exact'\n", "accuracy = 'fast'\n"})
+        for (const char* filter : {"texture_filter = 'linear'", "texture_filter = 'nearest'"}) {
+            const auto distance = [](const Image& a, const Image& b) {
+                double sum = 0;
+                for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+                return sum / static_cast<double>(a.pixels.size());
+            };
+            const Image byMaterial =
+                            textured(std::string(filter) + "\ntexture_scale = [4, 4]\ntexture_offset = [0.25, 0.25]", 0,
+                                1, accuracy),
+                        byMesh = textured(filter, 0.25, 4.25, accuracy);
+            // What interpolation rounds shows where one texel ends at once.
+            EXPECT_LT(distance(byMaterial, byMesh), 1e-4) << accuracy << filter;
+            EXPECT_GT(distance(byMaterial, textured(filter, 0, 4, accuracy)), 0.1);
+        }
+}
+
+TEST(Textures, areSharpOrSmoothAndEndAsTheySay) {
+    const auto at = [](const Image& image, int x, int y) {
+        const float* p = image.at(x, y);
+        return glm::vec3(p[0], p[1], p[2]);
+    };
+    // Sharp, and by itself so: each quarter has its texel's colour up to its border.
+    for (const char* filter : {"texture_filter = 'nearest'", "texture_filter = 'automatic'"}) {
+        const Image sharp = textured(filter, 0, 1);
+        for (const int x : {1, 20, 38}) {
+            EXPECT_EQ(at(sharp, x, 78), glm::vec3(1, 0, 0)) << filter << x;
+            EXPECT_EQ(at(sharp, x + 40, 78), glm::vec3(0, 1, 0));
+            EXPECT_EQ(at(sharp, x, 1), glm::vec3(0, 0, 1));
+        }
+    }
+    // Smooth: half way between the texels' middles their mean.
+    const glm::vec3 between = at(textured("texture_filter = 'linear'", 0, 1), 40, 60);
+    EXPECT_NEAR(between.r, 0.5, 0.02);
+    EXPECT_NEAR(between.g, 0.5, 0.02);
+    // Beyond the image: again, or its border.
+    const Image again = textured("texture_filter = 'nearest'", 0, 2),
+                border = textured("texture_filter = 'nearest'\ntexture_repeats = false", 0, 2);
+    EXPECT_EQ(at(again, 50, 70), glm::vec3(1, 0, 0));
+    EXPECT_EQ(at(border, 50, 70), glm::vec3(0, 1, 0));
+    EXPECT_EQ(at(border, 10, 10), glm::vec3(0, 0, 1));
+}
+
 }  // namespace
 }  // namespace limn::test
