@@ -221,6 +221,25 @@ TEST_F(Errors, techniquesKnowsTables) {
     expect("techniques camra", 64, "did you mean 'camera'?");
 }
 
+TEST_F(Errors, theLauncherSaysWhereItMayNotBuild) {
+    if (geteuid() != 0) GTEST_SKIP() << "becoming somebody else needs root";
+    std::filesystem::copy(std::filesystem::path(LIMN_SOURCE_DIR) / "limn", folder.path() / "limn");
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    const auto launch = [&] {
+        return WEXITSTATUS(std::system(fmt::format(
+            "cd '{}' && setpriv --reuid=65534 --clear-groups ./limn --version >said 2>&1", folder.path().string())
+                                           .c_str()));
+    };
+    EXPECT_EQ(launch(), 77);
+    EXPECT_NE(readFile(folder.path() / "said").find("cannot be written to"), std::string::npos);
+    // What is built there is run.
+    std::filesystem::create_directories(folder.path() / "build/release");
+    write("build/release/limn", "#!/bin/sh\necho built $1\n");
+    std::filesystem::permissions(folder.path() / "build/release/limn", std::filesystem::perms(0755));
+    EXPECT_EQ(launch(), 0);
+    EXPECT_EQ(readFile(folder.path() / "said"), "built --version\n");
+}
+
 TEST_F(Errors, placesThatCannotBeWritten) {
     write("file", "in the way");
     const RunResult r = run("render config.toml --output file/picture.png");
