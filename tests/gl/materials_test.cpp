@@ -1,6 +1,8 @@
 // Colours of vertices, and holes that materials cut.
 
 #include "base/file.h"
+#include "formats/obj.h"
+#include "mesh/tri_mesh.h"
 #include "settings/color.h"
 #include "support/bench.h"
 
@@ -59,6 +61,31 @@ TEST(VertexColours, tintTheMaterialThatWantsThem) {
     };
     EXPECT_NEAR(albedo(""), srgbToLinear(188 / 255.0f) * srgbToLinear(0.5f), 1e-3);
     EXPECT_NEAR(albedo("vertex_colors = false"), srgbToLinear(188 / 255.0f), 1e-3);
+}
+
+TEST(VertexColours, stayWithTheMeshThatHasThem) {
+    const std::string scene = kFront + "[[mesh]]\nname = 'c'\nfile = 'c.obj'\n[[mesh]]\nname = 'p'\nfile = 'p.obj'\n";
+    const std::string coloured = "v -9 -9 0 1 0 0\nv 0 -9 0 1 0 0\nv 0 9 0 1 0 0\nv -9 9 0 1 0 0\nf 1 2 3 4\n",
+                      plain = "v 0 -9 0\nv 9 -9 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n";
+    for (const char* accuracy : {"accuracy = 'exact'\n", "accuracy = 'fast'\n"}) {
+        RenderConfig wanted = makeConfig(
+            std::string(accuracy) + "[image]\nsize = [120, 120]\nsamples = 1\n[output]\naovs = ['albedo']\n");
+        const Picture p = draw(wanted, makeScene(scene, {{"c.obj", coloured}, {"p.obj", plain}}));
+        const float *left = p.aov("albedo").at(20, 60), *right = p.aov("albedo").at(100, 60);
+        EXPECT_NEAR(left[0], 1, 1e-3) << accuracy;
+        EXPECT_NEAR(left[1], 0, 1e-3);
+        EXPECT_NEAR(right[0], kPaperGrey.r, 1e-3) << accuracy;
+        EXPECT_NEAR(right[1], kPaperGrey.g, 1e-3);
+    }
+    // As triangles: no colours where there are none, and none that nobody asks for.
+    for (const bool unified : {false, true}) {
+        const auto colours = [&](const std::string& text, bool wants) {
+            return buildTriMesh(parseObj(text, "m.obj").mesh, {.unified = unified, .colors = wants}).colors.size();
+        };
+        EXPECT_EQ(colours(plain, true), 0u);
+        EXPECT_EQ(colours(coloured, false), 0u);
+        EXPECT_GT(colours(coloured, true), 0u);
+    }
 }
 
 /// A scene in a folder that lasts, since textures are read when it is drawn.
