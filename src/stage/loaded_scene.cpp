@@ -205,6 +205,28 @@ std::optional<SubdivisionOptions> subdivisionOf(const MeshSource& source, const 
     return options;
 }
 
+/// The meshes of the first declared frame; where a file of its own is unusable, those of the first frame that has none
+/// such: a bad file is its frame's affair. Throws Errors.
+static std::vector<SharedMesh> firstMeshes(const LoadedScene& loaded) {
+    const auto isOfFrame = [&](const Error& error, int frame) {
+        return std::any_of(loaded.scene.meshes.begin(), loaded.scene.meshes.end(),
+            [&](const auto& mesh) { return mesh.perFrame && mesh.at(frame) == error.where.file; });
+    };
+    const int first = loaded.scene.firstFrame(), last = loaded.scene.frames ? loaded.scene.frames->last : first;
+    for (int frame = first;; ++frame) {
+        std::vector<SharedMesh> meshes;
+        std::vector<Error> failed;
+        collect(failed, [&] { meshes = loaded.meshes->at(frame); });
+        if (failed.empty()) return meshes;
+        const bool mayGoOn = frame < last
+            && std::all_of(failed.begin(), failed.end(), [&](const Error& error) { return isOfFrame(error, frame); });
+        if (mayGoOn) continue;
+        ErrorCollector errors;
+        for (auto& error : failed) errors.add(std::move(error));
+        errors.throwIfAny();
+    }
+}
+
 /// Scans, CAD and maps count z upwards: such a model stands on z = 0, and goes through y = 0.
 static void hintAtUp(const LoadedScene& loaded) {
     const Bounds& box = loaded.bounds;
@@ -239,7 +261,7 @@ LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& 
     loaded.meshes = std::make_shared<const MeshLibrary>(loaded.scene.meshes, std::move(isDrawn));
 
     const int first = loaded.scene.firstFrame();
-    const auto meshes = loaded.meshes->at(first);
+    const auto meshes = firstMeshes(loaded);
     for (const auto& mesh : meshes)
         if (mesh) warnOfMaterials(*mesh, loaded.scene);
     for (const auto& instance : loaded.scene.instances) {

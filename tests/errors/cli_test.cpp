@@ -65,6 +65,20 @@ TEST_F(Errors, aBadFrameFailsAloneWhereTheOthersGoOn) {
         EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << r.err;
 }
 
+TEST_F(Errors, aBadFileStopsNoFrameThatDoesNotUseIt) {
+    for (const int frame : {1, 2, 3}) write(fmt::format("m_{}.obj", frame), boxObj({-1, -1, -1}, {1, frame, 1}));
+    write("scene.toml", "[animation]\nframes = \"1-3\"\n[[mesh]]\nname = \"m\"\nfile = \"m_#.obj\"\n");
+    for (const int bad : {1, 3}) {
+        write(fmt::format("m_{}.obj", bad), "v 0 0 0\nf 1 2 3\n");
+        EXPECT_EQ(run("render config.toml --frames 2 --output out/p_#.png").exitCode, 0);
+        expect(fmt::format("render config.toml --frames {} --output out/p_#.png", bad), 65,
+            fmt::format("m_{}.obj:2: 1 of 1 faces", bad));
+    }
+    // Where nothing can be read there is nothing to draw.
+    write("m_2.obj", "v 0 0 0\nf 1 2 3\n");
+    EXPECT_EQ(run("render config.toml --output out/p_#.png").exitCode, 65);
+}
+
 TEST_F(Errors, anImageThatFailsOnceFailsInEveryFrame) {
     write("m.obj", "vt 0 0\nvt 1 0\nvt 1 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/1 2/2 3/3\n");
     write("bad.png", "this is no picture");

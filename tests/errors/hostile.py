@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Configs and scenes that nobody would write: python3 tests/errors/hostile.py LIMN [--count 2000] [--seed 1] [--log FILE]
+"""Configs and scenes that nobody would write:
+
+    python3 tests/errors/hostile.py LIMN [--count 2000] [--seed 1] [--log FILE]
 
 Changes the project's own and some small ones at random: numbers to extremes, texts to nonsense, lines gone, doubled,
-swapped or torn. Honest sizes stay small, so that what takes long or much is limn's fault. Each must end within 20 s and
-12 GB with a documented exit code other than that of a bug, and say so in lines of at most 300 bytes beside their prefix.
+swapped or torn. Honest sizes stay small: what takes long or much is limn's fault. Each must end within 20 s and 12 GB
+with a documented exit code other than that of a bug, and say so in lines of at most 300 bytes beside their prefix.
 """
 
 import argparse
@@ -21,10 +23,14 @@ TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 DOCUMENTED = {0, 1, 33, 64, 65, 66, 73, 74, 75, 77}
 LONGEST = 300 + len("warning: ")
 
-NUMBERS = "0 -1 1 2 0.5 -0.0 1e-308 1e308 -1e308 1e-5 1e9 2147483648 -2147483649 9223372036854775807 nan inf -inf 1e400".split()
-TEXTS = ['""', '"\\u0007"', '"../../../etc/passwd"', '"/dev/zero"', '"' + "x" * 5000 + '"', '"%s%n"', '"#zzzzzz"', '"1e999px"',
-         '"-5%"', '"0.000mm"', '"####"', "true", "[]", "[[]]", "{}", "[1, [2, [3]]]", "{ keys = [] }",
-         "{ keys = [[1, 2], [1, 3]] }", "1979-05-27", '"toon"', '"hbao"', '"\\U0001F600"']
+NUMBERS = (
+    "0 -1 1 2 0.5 -0.0 1e-308 1e308 -1e308 1e-5 1e9 2147483648 -2147483649 9223372036854775807 nan inf -inf 1e400"
+).split()
+TEXTS = [
+    '""', '"\\u0007"', '"../../../etc/passwd"', '"/dev/zero"', '"' + "x" * 5000 + '"', '"%s%n"', '"#zzzzzz"',
+    '"1e999px"', '"-5%"', '"0.000mm"', '"####"', "true", "[]", "[[]]", "{}", "[1, [2, [3]]]", "{ keys = [] }",
+    "{ keys = [[1, 2], [1, 3]] }", "1979-05-27", '"toon"', '"hbao"', '"\\U0001F600"',
+]
 # Keys whose honest values cost time or memory: never more than these.
 CAPS = {"samples": 8, "size": 300, "level": 5, "points": 64, "rays": 16, "slices": 16, "steps": 64, "resolution": 1024,
         "directions": 16, "iterations": 8, "supersampling": 2}
@@ -197,9 +203,11 @@ def main():
                 wrong.append("ends with %d without a word" % code)
             if wrong:
                 failed.append(number)
-                print("%d: %s: %s" % (number, ", ".join(wrong), err[-300:].decode(errors="replace").strip()), flush=True)
-    text = "%d configs and scenes: %s; longest %.1f s, largest %d MiB; %d wrong" % (
-        options.count, ", ".join("%d × code %d" % (n, c) for c, n in sorted(codes.items())), longest, largest, len(failed))
+                said = err[-300:].decode(errors="replace").strip()
+                print("%d: %s: %s" % (number, ", ".join(wrong), said), flush=True)
+    counts = ", ".join("%d × code %d" % (n, c) for c, n in sorted(codes.items()))
+    text = "%d configs and scenes, seed %d: %s; longest %.1f s, largest %d MiB; %d wrong" % (
+        options.count, options.seed, counts, longest, largest, len(failed))
     print(text)
     if options.log:
         open(os.path.join(TOP, options.log), "a").write(text + "\n")
