@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Is a build slower than another? python3 tests/bench/compare_speed.py OLD NEW [--rounds 9] [CONFIG...]
 
-OLD and NEW are limn programs. Each round draws every config with OLD, NEW and OLD again, whole processes one after the
+OLD and NEW are limn programs. Each round draws every picture with OLD, NEW and OLD again, whole processes one after the
 other, so that what the machine does meanwhile meets all three. Prints the median ratio NEW / OLD beside OLD / OLD, with
-the spread of both. Without configs: each ambient occlusion technique in the room of LIMN_TEST_DATA's ao_scenes, and
-cages of its folder at level 4.
+the spread of both. The pictures: each ambient occlusion technique in two of the places of ao_table.sh, cages of
+LIMN_TEST_DATA at level 4, and the configs given (those of cages.sh, for example).
 """
 
 import argparse
@@ -38,25 +38,31 @@ path = "picture.png"
 """
 
 
+PLACES = {
+    "room": ("ao_scenes/room.obj", "[-1.9, 1.2, 3.6]", "[1.5, 0.6, -2.5]"),
+    "sponza": ("sponza_architecture/sponza.obj", "[480, 620, -330]", "[-500, 420, 250]"),
+}
+
+
 def own_configs(folder):
-    data = os.environ.get("LIMN_TEST_DATA") or sys.exit("LIMN_TEST_DATA names no folder; or name configs")
-    with open(os.path.join(folder, "room.toml"), "w") as f:
-        f.write('[[mesh]]\nname = "room"\nfile = "%s/ao_scenes/room.obj"\n' % data)
-        f.write('[[camera]]\nposition = [0.3, 1.6, 4.8]\nlook_at = [-0.1, 1.1, -3]\nfov = 91.5\n')
+    data = os.environ.get("LIMN_TEST_DATA") or sys.exit("LIMN_TEST_DATA names no folder of test data")
+    for place, (file, position, look_at) in PLACES.items():
+        with open(os.path.join(folder, place + ".toml"), "w") as f:
+            f.write('[[mesh]]\nname = "%s"\nfile = "%s/%s"\n' % (place, data, file))
+            f.write("[[camera]]\nposition = %s\nlook_at = %s\nfov = 91.5\n" % (position, look_at))
     cages = sorted(name for name in os.listdir(data + "/cages") if name.endswith(".obj"))[:6]
     with open(os.path.join(folder, "cages.toml"), "w") as f:
         for i, name in enumerate(cages):
             f.write('[[mesh]]\nname = "c%d"\nfile = "%s/cages/%s"\nsubdivision = { level = 4 }\n' % (i, data, name))
+    pictures = [("cages_%d" % samples, "cages", samples, "") for samples in (1, 8)]
+    for place in PLACES:
+        for technique, more in OCCLUSION.items():
+            pictures.append((place + "_" + technique, place, 2, "[ao]\ntechnique = '%s'\n%s\n" % (technique, more)))
     configs = []
-    for name, scene, samples, more in [
-        *((t, "room", 4, "[ao]\ntechnique = '%s'\n%s\n" % (t, more)) for t, more in OCCLUSION.items()),
-        ("cages, 1 sample", "cages", 1, ""),
-        ("cages, 8 samples", "cages", 8, ""),
-    ]:
-        path = os.path.join(folder, name.replace(", ", "_").replace(" ", "_") + ".toml")
-        with open(path, "w") as f:
+    for name, scene, samples, more in pictures:
+        configs.append(os.path.join(folder, name + "_picture.toml"))
+        with open(configs[-1], "w") as f:
             f.write('scene = "%s.toml"\n' % scene + STYLE % samples + more)
-        configs.append(path)
     return configs
 
 
@@ -77,9 +83,9 @@ def main():
     options = parser.parse_args()
     old, new = os.path.abspath(options.old), os.path.abspath(options.new)
     with tempfile.TemporaryDirectory() as folder:
-        configs = options.configs or own_configs(folder)
+        configs = own_configs(folder) + options.configs
         output = os.path.join(folder, "picture.png")
-        print("%-24s %9s %9s   %-24s %-24s" % ("", "old", "new", "new / old", "old / old"))
+        print("%-28s %9s %9s   %-24s %-24s" % ("", "old", "new", "new / old", "old / old"))
         worst = 0
         for config in configs:
             for program in (old, new):
@@ -90,9 +96,9 @@ def main():
             for column in zip(*ratios):
                 text.append("%.3f (%.3f to %.3f)" % (statistics.median(column), min(column), max(column)))
             worst = max(worst, statistics.median(r[0] for r in ratios))
-            name = os.path.splitext(os.path.basename(config))[0]
+            name = os.path.splitext(os.path.basename(config))[0].replace("_picture", "")
             medians = [statistics.median(column) for column in zip(*times)]
-            print("%-24s %7.3f s %7.3f s   %-24s %-24s" % (name, medians[0], medians[1], *text), flush=True)
+            print("%-28s %7.3f s %7.3f s   %-24s %-24s" % (name, medians[0], medians[1], *text), flush=True)
         print("largest median: %.3f" % worst)
 
 
