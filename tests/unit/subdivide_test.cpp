@@ -351,5 +351,28 @@ TEST_F(Shapes, modelsThatCorruptBfrAreTakenTheSafeWay) {
     EXPECT_GT(safe, 0u) << "else nothing was put to the test";
 }
 
+TEST(Subdivision, mendsMissingNormalsAndNoOthers) {
+    const std::string cube =
+                          "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                          "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+                      // A face without area, whose surface has no normal anywhere.
+        point = "v 5 5 5\nv 5 5 5\nv 5 5 5\nv 5 5 5\nf 9 10 11 12\n";
+    SubdivisionOptions options;
+    options.level = 2;
+    const auto made = [&](const std::string& text) {
+        ObjFile file = parseObj(text, "m.obj");
+        repairTopology(file.mesh, file.warnings);
+        return subdivide(file.mesh, options, {.normals = true}, "m.obj");
+    };
+    const TriMesh alone = made(cube), both = made(cube + point);
+    ASSERT_EQ(both.triangleCount(), alone.triangleCount()) << "triangles without area are dropped";
+    const auto normalOf = [](const TriMesh& mesh, std::size_t corner) {
+        return mesh.normals[mesh.normalIndices.empty() ? mesh.indices[corner] : mesh.normalIndices[corner]];
+    };
+    for (std::size_t corner = 0; corner < 3 * alone.triangleCount(); ++corner)
+        ASSERT_LT(glm::length(normalOf(both, corner) - normalOf(alone, corner)), 1e-5f)
+            << "another pivot rounds otherwise";
+}
+
 }  // namespace
 }  // namespace limn
