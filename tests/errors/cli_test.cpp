@@ -241,7 +241,8 @@ TEST_F(Errors, theLauncherSaysWhereItMayNotBuild) {
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
     const auto launch = [&] {
         return WEXITSTATUS(std::system(fmt::format(
-            "cd '{}' && setpriv --reuid=65534 --clear-groups ./limn --version >said 2>&1", folder.path().string())
+            "cd '{}' && LIMN_PRESET=release setpriv --reuid=65534 --clear-groups ./limn --version >said 2>&1",
+            folder.path().string())
                                            .c_str()));
     };
     EXPECT_EQ(launch(), 77);
