@@ -195,7 +195,7 @@ ContentKey Renderer::shownAs(const ContentKey& order) const {
 }
 
 MadeMeshes Renderer::makeMissing(
-    const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times) {
+    Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times) {
     const bool traces = has(pipelines.sceneData(), SceneData::rays);
     const auto isMissing = [&](const MeshOrder& order) {
         const ContentKey key = shownAs(order.key);
@@ -207,8 +207,8 @@ MadeMeshes Renderer::makeMissing(
     if (std::none_of(orders.orders.begin(), orders.orders.end(), isMissing)) return {};
     Stopwatch watch(times);
     // Makes triangles while the programs load.
-    auto coming =
-        awaited_.valid() ? std::move(awaited_) : std::async(std::launch::async, [&] { return make(isMissing); });
+    bool isAhead = frame.awaited.valid();
+    auto coming = isAhead ? std::move(frame.awaited) : std::async(std::launch::async, [&] { return make(isMissing); });
     prepare(pipelines.averaged, pipelines.averagedView);
     watch.lap("of which programs");
     MadeMeshes made = coming.get();
@@ -216,6 +216,7 @@ MadeMeshes Renderer::makeMissing(
         return isMissing(order) && !made.meshes.contains(order.key) && !made.shownAs.contains(order.key);
     };
     if (std::any_of(orders.orders.begin(), orders.orders.end(), isStillMissing)) {
+        isAhead = false;
         MadeMeshes more = make(isStillMissing);
         made.meshes.merge(more.meshes);
         made.shownAs.merge(more.shownAs);
@@ -225,7 +226,7 @@ MadeMeshes Renderer::makeMissing(
         if (frame.facts.triangleBits > 0 && mesh.triangleCount() > std::size_t{1} << frame.facts.triangleBits)
             throw Error(ExitCode::internal, {frame.loaded.scene.file},
                 "a mesh became more triangles than were planned for", "please report this");
-    times.push_back({"triangles (made in parallel)", made.milliseconds});
+    times.push_back({isAhead ? "triangles (made ahead)" : "triangles (made in parallel)", made.milliseconds});
     return made;
 }
 

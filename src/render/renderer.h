@@ -90,7 +90,7 @@ private:
     void bringScene(Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times);
     /// The meshes that are neither on the GPU nor kept for rays.
     MadeMeshes makeMissing(
-        const Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
+        Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
     /// Makes the tree anew if its input has changed; false if not.
     bool bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
     ContentKey shownAs(const ContentKey& order) const;

@@ -54,6 +54,8 @@ def own_configs(folder):
     with open(os.path.join(folder, "cages.toml"), "w") as f:
         for i, name in enumerate(cages):
             f.write('[[mesh]]\nname = "c%d"\nfile = "%s/cages/%s"\nsubdivision = { level = 4 }\n' % (i, data, name))
+        # A camera of its own: builds may frame a scene that has none in different ways.
+        f.write("[[camera]]\nposition = [3, 2.5, 4]\nlook_at = [0, 0.3, 0]\nfov = 50\n")
     pictures = [("cages_%d" % samples, "cages", samples, "") for samples in (1, 8)]
     for place in PLACES:
         for technique, more in OCCLUSION.items():
@@ -80,10 +82,11 @@ def main():
     parser.add_argument("new")
     parser.add_argument("configs", nargs="*")
     parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--only", default="", help="pictures whose name holds this text")
     options = parser.parse_args()
     old, new = os.path.abspath(options.old), os.path.abspath(options.new)
     with tempfile.TemporaryDirectory() as folder:
-        configs = own_configs(folder) + options.configs
+        configs = [c for c in own_configs(folder) + options.configs if options.only in os.path.basename(c)]
         output = os.path.join(folder, "picture.png")
         print("%-28s %9s %9s   %-24s %-24s" % ("", "old", "new", "new / old", "old / old"))
         worst = 0

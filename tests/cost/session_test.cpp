@@ -53,5 +53,29 @@ TEST(Session, plansWithoutADevice) {
     EXPECT_THROW(session.draw(config, 1), Error);
 }
 
+TEST(Session, drawsWithTheMeshesThatWereMadeAhead) {
+    const TemporaryFolder folder;
+    replaceFile(folder.path() / "ball.obj", sphereObj(1, 16));
+    replaceFile(folder.path() / "scene.toml",
+        "[[mesh]]\nname = 'ball'\nfile = 'ball.obj'\nsubdivision = { level = 2 }\n[[camera]]\nposition = [0, 0, 5]\n"
+        "look_at = [0, 0, 0]\n");
+    RenderConfig config = makeConfig("[image]\nsize = [32, 24]\nsamples = 1\n[shading]\ntechnique = 'toon'\n");
+    config.scene = folder.path() / "scene.toml";
+    const auto parts = [&](Session& session) {
+        std::vector<std::string> names;
+        for (const auto& part : session.draw(config, 1).times) names.push_back(part.name);
+        return names;
+    };
+    const auto has = [](const std::vector<std::string>& names, const char* name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    Session ahead, plain;
+    ahead.makeAhead(config, 1);
+    EXPECT_TRUE(has(parts(ahead), "triangles (made ahead)"))
+        << "making them again would cost as much as the first time";
+    EXPECT_TRUE(has(parts(plain), "triangles (made in parallel)"));
+    EXPECT_FALSE(has(parts(plain), "triangles (made in parallel)")) << "they are kept";
+}
+
 }  // namespace
 }  // namespace limn::test
