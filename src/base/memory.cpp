@@ -36,7 +36,7 @@ std::uint64_t groupLimit() {
                           file = controllers.empty() ? "/memory.max" : "/memory.limit_in_bytes";
         // Groups lie in each other.
         for (std::string group = line.substr(second + 1);; group.resize(group.rfind('/'))) {
-            least = std::min(least, numberIn(root + (group == "/" ? "" : group) + file));
+            least = std::min(least, numberIn(fmt::format("{}{}{}", root, group == "/" ? "" : group, file)));
             if (group.find('/') == std::string::npos) break;
         }
     }

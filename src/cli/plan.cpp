@@ -59,7 +59,7 @@ ExitCode runCheck(const std::vector<std::string>& configs, const ConfigOverrides
             const ImageKeys fromMeshes = loaded.meshes->imageKeys();
             // A config that passes must draw: images that cannot be decoded would end the render.
             for (const auto* images : {&loaded.images, &fromMeshes})
-                for (const auto& [file, key] : *images) damaged.run([&] { static_cast<void>(readImage(file)); });
+                for (const auto& image : *images) damaged.run([&] { static_cast<void>(readImage(image.first)); });
             damaged.throwIfAny();
             log::info("{}: fine", path);
         });
