@@ -3,7 +3,7 @@
 
 OLD and NEW are limn programs. Each round draws every picture with OLD, NEW and OLD again, whole processes one after the
 other, so that what the machine does meanwhile meets all three. Prints the median ratio NEW / OLD beside OLD / OLD, with
-the spread of both. The pictures: each ambient occlusion technique in two of the places of ao_table.sh, cages of
+the spread of both. The pictures: each ambient occlusion technique in the places of ao_table.sh, cages of
 LIMN_TEST_DATA at level 4, and the configs given (those of cages.sh, for example).
 """
 
@@ -40,6 +40,8 @@ path = "picture.png"
 
 PLACES = {
     "room": ("ao_scenes/room.obj", "[-1.9, 1.2, 3.6]", "[1.5, 0.6, -2.5]"),
+    "thin": ("ao_scenes/thin.obj", "[-2.6, 0.9, 3.2]", "[0.3, 0.5, 0]"),
+    "bust": ("ao_scenes/bust.obj", "[-1.2, 1.1, 2.3]", "[0, 1.0, 0]"),
     "sponza": ("sponza_architecture/sponza.obj", "[480, 620, -330]", "[-500, 420, 250]"),
 }
 
