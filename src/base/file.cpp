@@ -6,16 +6,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <mutex>
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace limn {
 namespace {
@@ -120,15 +124,32 @@ std::string temporaryPrefix() {
     return fmt::format("{}{}-{}-{}-", kTemporary, thisMachine(), process, word(startOf(process)));
 }
 
+/// The parts of a temporary's name: host, boot, namespace, process, start and six random letters, or those letters
+/// alone, as an earlier version wrote it. Empty for every other name: what people call ".limn-notes" is theirs.
+std::vector<std::string> partsOf(std::string_view name) {
+    if (!name.starts_with(kTemporary)) return {};
+    std::vector<std::string> parts(1);
+    for (const char c : name.substr(kTemporary.size())) c == '-' ? void(parts.emplace_back()) : void(parts.back() += c);
+    const bool isShaped = (parts.size() == 1 || parts.size() == 6) && parts.back().size() == 6
+        && std::all_of(parts.back().begin(), parts.back().end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+    return isShaped ? parts : std::vector<std::string>{};
+}
+
+/// Is a process of this machine no more? One that others may not look at counts as alive.
+bool isGone(const std::string& process, const std::string& start) {
+    const std::string now = startOf(process);
+    if (!now.empty()) return word(now) != start;
+    const int number = std::atoi(process.c_str());
+    return number > 0 && ::kill(number, 0) != 0 && errno == ESRCH;
+}
+
 /// Can the process that made a temporary not be there any more? Of another machine's nothing is known but their age.
 bool isLeftBehind(const std::filesystem::path& file) {
-    const std::string name = file.filename().string(), own = std::string(kTemporary) + thisMachine() + '-';
-    if (name.starts_with(own)) {
-        const auto dash = name.find('-', own.size()), end = name.find('-', dash + 1);
-        if (dash != std::string::npos && end != std::string::npos)
-            return word(startOf(name.substr(own.size(), dash - own.size()))) != name.substr(dash + 1, end - dash - 1);
-    }
     std::error_code gone;
+    const std::vector<std::string> parts = partsOf(file.filename().string());
+    if (parts.empty() || !std::filesystem::is_regular_file(std::filesystem::symlink_status(file, gone))) return false;
+    if (parts.size() == 6 && parts[0] + '-' + parts[1] + '-' + parts[2] == thisMachine())
+        return isGone(parts[3], parts[4]);
     const auto written = std::filesystem::last_write_time(file, gone);
     return !gone && std::filesystem::file_time_type::clock::now() - written > std::chrono::hours(24);
 }
@@ -142,7 +163,7 @@ void sweepTemporaries(const std::filesystem::path& folder) {
     if (!swept.insert(std::filesystem::weakly_canonical(folder, error)).second) return;
     for (auto entry = std::filesystem::directory_iterator(folder, error);
          !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
-        if (entry->path().filename().string().starts_with(kTemporary) && isLeftBehind(entry->path())) {
+        if (isLeftBehind(entry->path())) {
             std::error_code ignored;
             std::filesystem::remove(entry->path(), ignored);
         }

@@ -42,7 +42,7 @@ glm::dvec2 readUpToThree(Cursor& cursor, glm::dvec2 value) {
             cursor = before;
             break;
         }
-        if (i < 2 && std::isfinite(number)) value[i] = number;
+        if (i < 2 && std::abs(number) <= kMostRepeats) value[i] = number;
     }
     return value;
 }
@@ -248,7 +248,8 @@ private:
 /// The names in an mtllib statement: the line itself may be one name with spaces in it, or several names; a backslash
 /// keeps a space within one.
 std::vector<std::string> libraryNames(const std::string& line, const std::filesystem::path& folder) {
-    if (!findNamedFile(line, folder).path.empty()) return {line};
+    const NamedFile whole = findNamedFile(line, folder);
+    if (!whole.path.empty() && whole.remark.empty()) return {line};
     std::vector<std::string> names(1);
     for (std::size_t i = 0; i < line.size(); ++i) {
         const bool isEscaped = line[i] == '\\' && i + 1 < line.size() && isBlank(line[i + 1]);
@@ -259,7 +260,9 @@ std::vector<std::string> libraryNames(const std::string& line, const std::filesy
             names.emplace_back();
     }
     if (names.back().empty()) names.pop_back();
-    return names;
+    const auto isThere = [&](const std::string& name) { return !findNamedFile(name, folder).path.empty(); };
+    const bool isOneName = !whole.path.empty() && std::none_of(names.begin(), names.end(), isThere);
+    return isOneName ? std::vector<std::string>{line} : names;
 }
 
 /// Takes the faces of invisible materials out.

@@ -548,7 +548,15 @@ static MeshFile readMesh(const std::filesystem::path& path) {
             file.warnings = std::move(obj.warnings);
         });
     file.files.push_back(path);
+    const std::size_t faces = file.poly.faceCount();
     file.materials = readMaterials(path, file.poly, file.warnings, &file.files);
+    if (file.poly.faceCount()
+        != faces) {  // a library has taken faces away: the same OBJ beside another is another mesh
+        const auto& corners = file.poly.cornerPosition;
+        KeyBuilder key;
+        file.key =
+            key.add(file.key.low).add(file.key.high).bytes(corners.data(), corners.size() * sizeof corners[0]).key();
+    }
     return file;
 }
 

@@ -125,10 +125,10 @@ constexpr Field kMaterial[] = {
     field<&Material::cutout>("cutout",
         "Image that cuts holes where its alpha (its brightness, if it has none) is below one half; relative to the "
         "scene file."),
-    field<&Material::textureScale>(
-        "texture_scale", "Times that the images are shown across one unit of texture coordinates."),
-    field<&Material::textureOffset>(
-        "texture_offset", "Added to texture coordinates then: 0.5 moves the images by half of themselves."),
+    field<&Material::textureScale>("texture_scale", {.min = -kMostRepeats, .max = kMostRepeats},
+        "Times that the images are shown across one unit of texture coordinates."),
+    field<&Material::textureOffset>("texture_offset", {.min = -kMostRepeats, .max = kMostRepeats},
+        "Added to texture coordinates then: 0.5 moves the images by half of themselves."),
     field<&Material::textureRepeats>("texture_repeats", "false: beyond the images their borders go on."),
     field<&Material::textureFilter>("texture_filter",
         "Between texels: linear, nearest (texels are squares), or automatic: nearest where an image has at most 64 "

@@ -295,7 +295,7 @@ void turnNormals(PolyMesh& mesh, std::vector<MeshWarning>& warnings) {
 
 std::size_t joinSeams(PolyMesh& mesh) {
     struct Rim {
-        std::uint32_t part, low, high;  ///< the ends' positions, ordered by where they lie
+        std::uint32_t part, face, low, high;  ///< the ends' positions, ordered by where they lie
     };
     const auto place = [&](std::uint32_t v) {
         const glm::dvec3 p = mesh.positions[v] + 0.0;  // -0 lies where 0 does
@@ -306,8 +306,8 @@ std::size_t joinSeams(PolyMesh& mesh) {
     for (const auto& edge : table.edges) {
         if (edge.useCount != 1 || place(edge.a) == place(edge.b)) continue;
         const bool isOrdered = place(edge.a) < place(edge.b);
-        rims.push_back(
-            {mesh.facePart[table.uses[edge.firstUse].face], isOrdered ? edge.a : edge.b, isOrdered ? edge.b : edge.a});
+        const std::uint32_t face = table.uses[edge.firstUse].face;
+        rims.push_back({mesh.facePart[face], face, isOrdered ? edge.a : edge.b, isOrdered ? edge.b : edge.a});
     }
     const auto key = [&](const Rim& rim) { return std::tuple(rim.part, place(rim.low), place(rim.high)); };
     tbb::parallel_sort(rims.begin(), rims.end(), [&](const Rim& x, const Rim& y) {
@@ -317,16 +317,31 @@ std::size_t joinSeams(PolyMesh& mesh) {
     DisjointSets sets(mesh.positions.size());
     for (std::size_t i = 0, end = 0; i < rims.size(); i = end) {
         for (end = i + 1; end < rims.size() && key(rims[end]) == key(rims[i]);) ++end;
-        if (end - i != 2) continue;
+        if (end - i != 2 || rims[i].face == rims[i + 1].face) continue;
         sets.join(rims[i].low, rims[i + 1].low);
         sets.join(rims[i].high, rims[i + 1].high);
     }
-    std::vector<char> isUsed(mesh.positions.size());
-    for (const auto v : mesh.cornerPosition) isUsed[v] = 1;
+    // A face must not come to have a corner twice: what would make it so stays apart.
+    std::vector<char> isKept(mesh.positions.size()), isUsed(mesh.positions.size());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // what a corner would become, and what it is
+    for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+        corners.clear();
+        for (std::uint32_t c = mesh.faceStart[f]; c < mesh.faceStart[f + 1]; ++c)
+            corners.emplace_back(sets.root(mesh.cornerPosition[c]), mesh.cornerPosition[c]);
+        std::sort(corners.begin(), corners.end());
+        for (std::size_t c = 1; c < corners.size(); ++c)
+            if (corners[c].first == corners[c - 1].first && corners[c].second != corners[c - 1].second)
+                isKept[corners[c].first] = 1;
+        for (const auto& corner : corners) isUsed[corner.second] = 1;
+    }
+    const auto rename = [&](std::uint32_t& v) { v = isKept[sets.root(v)] ? v : sets.root(v); };
     std::size_t joined = 0;
-    for (std::uint32_t v = 0; v < isUsed.size(); ++v) joined += isUsed[v] && sets.root(v) != v;
+    for (std::uint32_t v = 0; v < isUsed.size(); ++v) {
+        std::uint32_t renamed = v;
+        rename(renamed);
+        joined += isUsed[v] && renamed != v;
+    }
     if (joined == 0) return 0;
-    const auto rename = [&](std::uint32_t& v) { v = static_cast<std::uint32_t>(sets.root(v)); };
     for (auto& v : mesh.cornerPosition) rename(v);
     for (auto& crease : mesh.tags.creases) {
         rename(crease.a);

@@ -63,7 +63,7 @@ float alphaAt(const Mask& mask, glm::vec2 uv) {
     const auto texel = [&](int x, int y) {
         const glm::ivec2 place = glm::ivec2(cell) + glm::ivec2(x, y);
         const glm::ivec2 known =
-            mask.repeats ? (place + count) % count : glm::clamp(place, glm::ivec2(0), count - glm::ivec2(1));
+            mask.repeats ? (place % count + count) % count : glm::clamp(place, glm::ivec2(0), count - glm::ivec2(1));
         return image.at(known.x, known.y)[3];
     };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);

@@ -129,7 +129,8 @@ std::pair<Node*, std::string> findTable(Node& document, const std::string& path)
     };
     for (std::string word; node && std::getline(parts, word, '.');) {
         const auto index = parseNumber(word);
-        if (enter(index ? static_cast<std::size_t>(*index) : 0) && index) continue;
+        const bool isEntry = index && *index >= 0 && *index < 1e6;
+        if (enter(isEntry ? static_cast<std::size_t>(*index) : 0) && index) continue;
         if (node) node = node->find(word);
         key += (key.empty() ? "" : ".") + word;
     }

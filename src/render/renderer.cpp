@@ -245,6 +245,10 @@ bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf,
         for (const auto material : instance.materials) {  // its images may cut holes
             const ContentKey& texture = frame.scene.textureKeys[material];
             key.add(texture.low).add(texture.high);
+            const Material& look = frame.scene.materials[material];
+            if (look.cutout.empty()) continue;
+            key.add(look.textureScale.x).add(look.textureScale.y).add(look.textureOffset.x).add(look.textureOffset.y);
+            key.add(look.textureRepeats).add(look.textureFilter);
         }
     }
     if (rayScene_ && key.key() == rayKey_) return false;

@@ -38,6 +38,9 @@ struct Hatch {
     Color color;
 };
 
+/// What texture coordinates may be multiplied by or moved by, at most.
+inline constexpr double kMostRepeats = 1e6;
+
 struct Material {
     std::string name;
     Color color = kPaperGrey;

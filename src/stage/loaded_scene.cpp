@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -64,14 +65,29 @@ MeshFile readMesh(const MeshSource& source, int frame) {
 
 /// Lets a texture's alpha mask cut holes too, since exporters name a leaf's image once. For materials of mesh files
 /// only: a scene names its cutouts itself.
-void adoptAlpha(MeshFile& mesh) {
-    std::vector<Error> told;  // ignored: drawing or checking the image reports them
-    for (auto& material : mesh.materials)
-        collect(told, [&] {
-            if (material.cutout.empty() && !material.texture.empty() && isAlphaMask(material.texture))
-                material.cutout = material.texture;
-        });
-}
+class AlphaMasks {
+public:
+    void adopt(MeshFile& mesh) {
+        std::vector<Error> told;  // by whoever draws or checks the image
+        for (auto& material : mesh.materials)
+            collect(told, [&] {
+                if (material.cutout.empty() && !material.texture.empty() && isMask(material.texture))
+                    material.cutout = material.texture;
+            });
+    }
+
+private:
+    /// Looks at each image once, and at one at a time: it is decoded for that.
+    bool isMask(const std::string& file) {
+        const std::lock_guard lock(mutex_);
+        const auto [known, isNew] = known_.try_emplace(file, false);
+        if (isNew) known->second = isAlphaMask(file);
+        return known->second;
+    }
+
+    std::mutex mutex_;
+    std::map<std::string, bool> known_;
+};
 
 void warnOf(const MeshFile& mesh) {
     for (const auto& warning : mesh.warnings)
@@ -111,6 +127,7 @@ struct MeshLibrary::State {
     std::mutex mutex;
     std::vector<std::vector<Entry>> entries;  ///< of each source, in the order in which they were read
     ImageKeys images;
+    AlphaMasks masks;
 
     int frameOf(std::size_t source, int frame) const { return sources[source].perFrame ? frame : 0; }
 
@@ -128,7 +145,7 @@ struct MeshLibrary::State {
         tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t w) {
             collect(failed[w], [&] {
                 meshes[w] = readMesh(sources[wanted[w]], frame);
-                adoptAlpha(meshes[w]);
+                masks.adopt(meshes[w]);
                 for (const auto& material : meshes[w].materials)
                     for (const auto& image : {material.texture, material.cutout}) addImage(shown[w], image);
             });

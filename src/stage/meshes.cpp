@@ -43,7 +43,7 @@ TriMesh makeWhole(const LoadedScene& loaded, const SceneAt& scene, const FrameRe
     const MeshOrder& order) {
     const PolyMesh& poly = scene.meshes[order.mesh]->poly;
     auto subdivision = subdivisionOf(sourceOf(loaded, order), poly);
-    if (!subdivision) return buildTriMesh(poly, needs);
+    if (!subdivision || poly.faceCount() == 0) return buildTriMesh(poly, needs);
     subdivision->edgeRate = edgeRates(loaded, order.instances, request);
     return subdivide(poly, *subdivision, needs, sourceOf(loaded, order).file);
 }

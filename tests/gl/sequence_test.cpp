@@ -55,7 +55,9 @@ TEST(Sequence, mayBeginWithNothing) {
     const std::filesystem::path& folder = temporary.path();
     replaceFile(folder / "m_1.obj", "# nothing yet\n");
     replaceFile(folder / "m_2.obj", sphereObj(1, 16));
-    replaceFile(folder / "scene.toml", "[animation]\nframes = \"1-2\"\n[[mesh]]\nname = 'm'\nfile = 'm_#.obj'\n");
+    replaceFile(folder / "scene.toml",
+        "[animation]\nframes = \"1-2\"\n[[mesh]]\nname = 'm'\nfile = 'm_#.obj'\n"
+        "subdivision = { level = 1 }\n");
     const LoadedScene loaded = loadScene(folder / "scene.toml");
     for (const char* technique : {"hbao", "ray_traced"}) {
         const RenderConfig config =

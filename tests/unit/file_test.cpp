@@ -122,11 +122,13 @@ TEST_F(Temporaries, ofTheLivingAndOfOtherMachinesStay) {
     }
     while (count() == 0) ::usleep(200);
     const auto old = fs::file_time_type::clock::now() - std::chrono::hours(25);
-    const fs::path fresh = folder_ / ".limn-elsewhere-0123-pid4026-77-88-abcdef", stale = fresh.string() + "g",
-                   earlier = folder_ / ".limn-abcdef";
-    for (const auto& file : {fresh, stale, earlier}) std::ofstream(file) << "x";
+    const fs::path fresh = folder_ / ".limn-elsewhere-0123-pid4026-77-88-abcdef",
+                   stale = folder_ / ".limn-elsewhere-0123-pid4026-77-88-abcdeg", earlier = folder_ / ".limn-abcdef",
+                   notes = folder_ / ".limn-presets.toml";
+    for (const auto& file : {fresh, stale, earlier, notes}) std::ofstream(file) << "x";
     fs::last_write_time(stale, old);
     fs::last_write_time(earlier, old);
+    fs::last_write_time(notes, old);
     const pid_t sweeper = ::fork();
     if (sweeper == 0) {
         replaceFile(folder_ / "mine", "x");
@@ -140,6 +142,7 @@ TEST_F(Temporaries, ofTheLivingAndOfOtherMachinesStay) {
     EXPECT_TRUE(fs::exists(fresh)) << "perhaps at work, on another machine";
     EXPECT_FALSE(fs::exists(stale)) << "a day old";
     EXPECT_FALSE(fs::exists(earlier)) << "of a version that did not say whose";
+    EXPECT_TRUE(fs::exists(notes)) << "somebody's own";
     EXPECT_TRUE(fs::exists(folder_ / "mine"));
 }
 

@@ -198,6 +198,11 @@ TEST_F(Mtl, librariesGoToTheFacesThatMeanThem) {
     EXPECT_NE(warnings[0].kind.find("is found as 'My Model.mtl'"), std::string::npos) << warnings[0].kind;
     EXPECT_NE(warnings[1].kind.find("all take the library's only one, 'brick'"), std::string::npos);
 
+    // Several names: each is read, also where the last one alone would be found by its name.
+    replaceFile(folder_ / "a.mtl", "newmtl a\n");
+    replaceFile(folder_ / "sub/b.mtl", "newmtl b\n");
+    PolyMesh two = parseObj("mtllib ./a.mtl ./b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "m.obj").mesh;
+    EXPECT_EQ(readMaterials(folder_ / "m.obj", two, warnings).size(), 2u);
     warnings.clear();
     auto [shown, materials] = read("mtllib My Model.mtl\nusemtl a\nf 1 2 3\nusemtl hull\nf 1 2 3\nf 3 2 1\n",
         "newmtl a\nKa 1 1 1\nnewmtl hull\nd 0\n", warnings);

@@ -250,6 +250,9 @@ TEST(Seams, thatLieInOnePlaceAreJoined) {
         "f 1 2 3\nf 4 5 6\nf 7 8 9\n")
                          .mesh;
     EXPECT_EQ(joinSeams(three), 0u);
+    // A face whose own sides lie in one place stays as it is: no face has a corner twice.
+    PolyMesh own = parse("v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3 4\n").mesh;
+    EXPECT_EQ(joinSeams(own), 0u);
     // Creases follow their vertices.
     PolyMesh creased = parse(splitTube(4) + "t crease 2/1/0 8 9 3.0\n").mesh;
     ASSERT_EQ(creased.tags.creases.size(), 1u);
