@@ -213,14 +213,19 @@ std::string readFile(const std::filesystem::path& path) {
     }
 }
 
-void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+/// The folder of a file that is about to be written, made where it is missing. Throws Error.
+static std::filesystem::path makeFolderOf(const std::filesystem::path& path) {
+    auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     std::error_code made;
     std::filesystem::create_directories(folder, made);
     if (made) throw writeError(folder, made.value(), "making the folder");
     std::error_code unknown;
     if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
+    return folder;
+}
 
+void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const auto folder = makeFolderOf(path);
     sweepTemporaries(folder);
     auto temporary = (folder / (temporaryPrefix() + "XXXXXX")).string();
     Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
@@ -242,13 +247,7 @@ void replaceFile(const std::filesystem::path& path, std::span<const std::byte> b
 }
 
 void requireWritable(const std::filesystem::path& path) {
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    std::error_code made;
-    std::filesystem::create_directories(folder, made);
-    if (made) throw writeError(folder, made.value(), "making the folder");
-    std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown)) throw writeError(path, EISDIR, "creating");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) throw writeError(path, errno, "creating");
+    if (::access(makeFolderOf(path).c_str(), W_OK | X_OK) != 0) throw writeError(path, errno, "creating");
 }
 
 void replaceFile(const std::filesystem::path& path, std::string_view text) {
