@@ -1,3 +1,4 @@
+#include "base/content_key.h"
 #include "base/error.h"
 #include "image/image.h"
 
@@ -5,6 +6,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
@@ -35,57 +37,99 @@ private:
     std::size_t position_ = 0;
 };
 
+/// The bytes of a file that is in memory.
+class MemoryInput : public Imf::IStream {
+public:
+    explicit MemoryInput(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}
+    bool read(char c[], int n) override {
+        const auto count = static_cast<std::size_t>(n);
+        if (count > bytes_.size() - position_) throw std::runtime_error("the file ends early");
+        std::memcpy(c, bytes_.data() + position_, count);
+        position_ += count;
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = std::min<std::uint64_t>(position, bytes_.size()); }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::uint64_t position_ = 0;
+};
+
 /// "R" for the beauty, "normal.X" for others: what compositing programs expect.
 std::string channelName(const Layer& layer, const std::string& channel) {
     return layer.name == "beauty" ? channel : layer.name + "." + channel;
 }
 
+Imf::PixelType typeOf(const Layer& layer) {
+    return layer.isColour ? Imf::HALF : layer.isInteger ? Imf::UINT : Imf::FLOAT;
+}
+
+/// Rows of a layer as they are in the file: channels interleaved.
+struct Samples {
+    Imf::PixelType type;
+    std::size_t pixel, row;  ///< bytes
+    std::vector<std::byte> bytes;
+
+    Samples(const Layer& layer, int height)
+        : type(typeOf(layer)),
+          pixel(layer.channels.size() * (type == Imf::HALF ? sizeof(half) : sizeof(float))),
+          row(pixel * static_cast<std::size_t>(layer.image.width)),
+          bytes(row * static_cast<std::size_t>(height)) {}
+
+    /// Tells the library where the rows from `top` are; it counts rows from the picture's.
+    void insertInto(Imf::FrameBuffer& frame, const Layer& layer, std::ptrdiff_t top) {
+        char* const base = reinterpret_cast<char*>(bytes.data()) - static_cast<std::ptrdiff_t>(row) * top;
+        for (std::size_t c = 0; c < layer.channels.size(); ++c)
+            frame.insert(channelName(layer, layer.channels[c]),
+                Imf::Slice(type, base + c * (pixel / layer.channels.size()), pixel, row));
+    }
+};
+
+Samples samplesOf(const Layer& layer) {
+    Samples result(layer, layer.image.height);
+    const auto& pixels = layer.image.pixels;
+    switch (result.type) {
+        case Imf::HALF:
+            // Half ends at 65504: clamp rather than write infinity.
+            std::transform(pixels.begin(), pixels.end(), reinterpret_cast<half*>(result.bytes.data()),
+                [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
+            break;
+        case Imf::UINT:
+            std::transform(pixels.begin(), pixels.end(), reinterpret_cast<std::uint32_t*>(result.bytes.data()),
+                [](float v) { return static_cast<std::uint32_t>(v); });
+            break;
+        default: std::memcpy(result.bytes.data(), pixels.data(), result.bytes.size());
+    }
+    return result;
+}
+
+int threads() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
 class ExrEncoder : public ImageEncoder {
 public:
-    ExrEncoder(std::span<const Layer> layers, int height, const Metadata& metadata) {
+    ExrEncoder(std::span<const Layer> layers, int height, const Metadata& metadata)
+        : height_(height), written_(layers.size()) {
         Imf::Header header(layers.front().image.width, height);
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
-        for (const Layer& layer : layers)
+        for (const Layer& layer : layers) {
+            layers_.push_back({layer.name, layer.channels, layer.isColour, layer.isInteger,
+                {layer.image.width, 0, layer.image.channels, {}}});
             for (const auto& channel : layer.channels)
                 header.channels().insert(channelName(layer, channel), Imf::Channel(typeOf(layer)));
-        guarded([&] {
-            file_ = std::make_unique<Imf::OutputFile>(
-                stream_, header, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-        });
+        }
+        guarded([&] { file_ = std::make_unique<Imf::OutputFile>(stream_, header, threads()); });
     }
 
     void add(std::span<const Layer> band) override {
         Imf::FrameBuffer frame;
-        std::vector<std::vector<half>> halves(band.size());
-        std::vector<std::vector<std::uint32_t>> integers(band.size());
+        std::vector<Samples> samples;
         const int height = band.front().image.height;
         for (std::size_t l = 0; l < band.size(); ++l) {
-            const Layer& layer = band[l];
-            const auto& pixels = layer.image.pixels;
-            const char* base = reinterpret_cast<const char*>(pixels.data());
-            std::size_t size = sizeof(float);
-            if (layer.isColour) {
-                size = sizeof(half);
-                halves[l].resize(pixels.size());
-                // Half ends at 65504: clamp rather than write infinity.
-                std::transform(pixels.begin(), pixels.end(), halves[l].begin(),
-                    [](float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); });
-                base = reinterpret_cast<const char*>(halves[l].data());
-            } else if (layer.isInteger) {
-                size = sizeof(std::uint32_t);
-                integers[l].resize(pixels.size());
-                std::transform(pixels.begin(), pixels.end(), integers[l].begin(),
-                    [](float v) { return static_cast<std::uint32_t>(v); });
-                base = reinterpret_cast<const char*>(integers[l].data());
-            }
-            const std::size_t step = static_cast<std::size_t>(layer.image.channels) * size,
-                              row = step * static_cast<std::size_t>(layer.image.width);
-            // The library counts rows from the picture's top.
-            for (std::size_t c = 0; c < layer.channels.size(); ++c)
-                frame.insert(channelName(layer, layer.channels[c]),
-                    Imf::Slice(typeOf(layer),
-                        const_cast<char*>(base) + c * size - static_cast<std::ptrdiff_t>(row) * rows_, step, row));
+            samples.push_back(samplesOf(band[l]));
+            samples[l].insertInto(frame, band[l], rows_);
+            written_[l].bytes(samples[l].bytes.data(), samples[l].bytes.size());
         }
         guarded([&] {
             file_->setFrameBuffer(frame);
@@ -95,23 +139,47 @@ public:
     }
 
     std::vector<std::byte> finish() override {
-        guarded([&] { file_.reset(); });
+        guarded([&] {
+            file_.reset();
+            verify();
+        });
         return std::move(stream_.bytes);
     }
 
 private:
-    static Imf::PixelType typeOf(const Layer& layer) {
-        return layer.isColour ? Imf::HALF : layer.isInteger ? Imf::UINT : Imf::FLOAT;
+    void verify() const {
+        constexpr int kRows = 64;  // at a time: four of the blocks that ZIP makes
+        MemoryInput stream(stream_.bytes);
+        Imf::InputFile file(stream, threads());
+        std::vector<Samples> samples;
+        std::vector<KeyBuilder> read(layers_.size());
+        for (const Layer& layer : layers_) samples.emplace_back(layer, kRows);
+        for (int y = 0; y < height_; y += kRows) {
+            const int rows = std::min(kRows, height_ - y);
+            Imf::FrameBuffer frame;
+            for (std::size_t l = 0; l < layers_.size(); ++l) samples[l].insertInto(frame, layers_[l], y);
+            file.setFrameBuffer(frame);
+            file.readPixels(y, y + rows - 1);
+            for (std::size_t l = 0; l < layers_.size(); ++l)
+                read[l].bytes(samples[l].bytes.data(), samples[l].row * static_cast<std::size_t>(rows));
+        }
+        for (std::size_t l = 0; l < layers_.size(); ++l)
+            if (read[l].key() != written_[l].key()) throw notWhatWasWritten("EXR");
     }
 
     static void guarded(const auto& work) {
         try {
             work();
+        } catch (const Error&) {
+            throw;
         } catch (const std::exception& error) {
             throw Error(ExitCode::internal, {}, fmt::format("EXR encoding failed ({})", error.what()));
         }
     }
 
+    int height_;
+    std::vector<Layer> layers_;  ///< without pixels
+    std::vector<KeyBuilder> written_;
     MemoryStream stream_;
     std::unique_ptr<Imf::OutputFile> file_;
     std::ptrdiff_t rows_ = 0;

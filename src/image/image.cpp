@@ -148,6 +148,11 @@ std::string imageExtensions() {
     return joinOr(names);
 }
 
+Error notWhatWasWritten(std::string_view format) {
+    return {ExitCode::internal, {}, fmt::format("the {} file does not decode to the picture that went into it", format),
+        "nothing was written; try again, and report it if it happens twice"};
+}
+
 std::vector<std::byte> encodeImage(
     const ImageFormat& format, std::span<const Layer> layers, const Metadata& metadata, const EncodeOptions& options) {
     const auto encoder = format.open(layers, layers.front().image.height, metadata, options);

@@ -1,6 +1,8 @@
 // Images in memory, and files of them.
 #pragma once
 
+#include "base/error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -52,9 +54,13 @@ public:
     virtual ~ImageEncoder() = default;
     /// The next rows, from the top; the same layers in every band. Throws Error.
     virtual void add(std::span<const Layer> band) = 0;
-    /// After the last band. Same layers, same bytes: no dates, no times, no traces of how many bands there were.
+    /// After the last band. Same layers, same bytes: no dates, no times, no traces of how many bands there were. The
+    /// bytes have been decoded again, some rows at a time, and hold what was added; JPEG: as many rows of that size.
     virtual std::vector<std::byte> finish() = 0;
 };
+
+/// For encoders whose file decodes to something else than what went in.
+Error notWhatWasWritten(std::string_view format);
 
 /// A format of picture files. A format is one file: it ends with
 ///     const ImageFormat kPng{{".png"}, "what it is", {}, openPng};

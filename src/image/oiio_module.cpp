@@ -1,5 +1,6 @@
 // The part of limn that links OpenImageIO: built as limn-oiio.so.
 
+#include "base/content_key.h"
 #include "base/error.h"
 #include "image/codecs.h"
 #include "settings/color.h"
@@ -7,9 +8,77 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
 
 namespace limn {
 namespace {
+
+/// The content key of a JPEG's rows, decoded some at a time; nullopt unless there are so many.
+std::optional<ContentKey> decodedJpeg(std::span<const unsigned char> file, int height) {
+    constexpr int kRows = 64;
+    OIIO::Filesystem::IOMemReader reader(const_cast<unsigned char*>(file.data()), file.size());
+    const auto input = OIIO::ImageInput::open("memory.jpeg", nullptr, &reader);
+    if (!input || input->spec().height != height) return std::nullopt;
+    const auto& spec = input->spec();
+    std::vector<std::byte> samples(spec.scanline_bytes() * kRows);
+    KeyBuilder rows;
+    for (int y = 0; y < height; y += kRows) {
+        const int end = std::min(y + kRows, height);
+        if (!input->read_scanlines(0, 0, y, end, 0, 0, spec.nchannels, OIIO::TypeUInt8, samples.data()))
+            return std::nullopt;
+        rows.bytes(samples.data(), spec.scanline_bytes() * static_cast<std::size_t>(end - y));
+    }
+    return rows.key();
+}
+
+/// A TIFF in memory, as libtiff reads files. (OpenImageIO 2.4 reads TIFF from the disk only.)
+struct TiffMemory {
+    std::span<const unsigned char> file;
+    std::uint64_t position = 0;
+};
+
+tmsize_t readTiff(thandle_t handle, void* to, tmsize_t size) {
+    auto& memory = *static_cast<TiffMemory*>(handle);
+    const std::uint64_t from = std::min<std::uint64_t>(memory.position, memory.file.size()),
+                        count = std::min<std::uint64_t>(static_cast<std::uint64_t>(size), memory.file.size() - from);
+    std::memcpy(to, memory.file.data() + from, count);
+    memory.position = from + count;
+    return static_cast<tmsize_t>(count);
+}
+
+toff_t seekTiff(thandle_t handle, toff_t offset, int from) {
+    auto& memory = *static_cast<TiffMemory*>(handle);
+    const std::uint64_t base = from == SEEK_SET ? 0 : from == SEEK_CUR ? memory.position : memory.file.size();
+    return memory.position = base + offset;
+}
+
+/// As decodedJpeg().
+std::optional<ContentKey> decodedTiff(std::span<const unsigned char> file, int height) {
+    TiffMemory memory{file};
+    const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(
+        TIFFClientOpen(
+            "memory", "rm", &memory, readTiff, [](thandle_t, void*, tmsize_t) { return tmsize_t{0}; }, seekTiff,
+            [](thandle_t) { return 0; },
+            [](thandle_t handle) -> toff_t { return static_cast<TiffMemory*>(handle)->file.size(); }, nullptr, nullptr),
+        [](TIFF* open) {
+            if (open) TIFFClose(open);
+        });
+    std::uint32_t rows = 0;
+    if (!tiff || TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &rows) != 1
+        || rows != static_cast<std::uint32_t>(height))
+        return std::nullopt;
+    std::vector<std::byte> row(static_cast<std::size_t>(TIFFScanlineSize(tiff.get())));
+    KeyBuilder key;
+    for (std::uint32_t y = 0; y < rows; ++y) {
+        if (TIFFReadScanline(tiff.get(), row.data(), y, 0) != 1) return std::nullopt;
+        key.bytes(row.data(), row.size());
+    }
+    return key.key();
+}
 
 class OiioEncoder : public ImageEncoder {
 public:
@@ -25,10 +94,12 @@ public:
         spec.attribute("oiio:UnassociatedAlpha", 1);
         // The TIFF writer would put the present time: the same input must give the same bytes.
         spec.attribute("DateTime", "1970:01:01 00:00:00");
-        if (format_ == "jpeg")
+        if (format_ == "jpeg") {
             spec.attribute("Compression", fmt::format("jpeg:{}", options.quality));
-        else
+            spec.attribute("jpeg:subsampling", "4:4:4");  // halved colours would smear coloured lines
+        } else {
             spec.attribute("Compression", "zip");
+        }
         if (options.dpi > 0) {
             spec.attribute("ResolutionUnit", "in");
             spec.attribute("XResolution", static_cast<float>(options.dpi));
@@ -55,18 +126,33 @@ public:
             source = &opaque;
         }
         const int end = rows_ + source->image.height;
-        check(bits_ == 16 ? output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt16, quantize16(*source).data())
-                          : output_->write_scanlines(rows_, end, 0, OIIO::TypeUInt8, quantize8(*source).data()));
+        if (bits_ == 16)
+            write(quantize16(*source), OIIO::TypeUInt16, end);
+        else
+            write(quantize8(*source), OIIO::TypeUInt8, end);
         rows_ = end;
     }
 
     std::vector<std::byte> finish() override {
         check(output_->close());
+        verify();
         const auto* bytes = reinterpret_cast<const std::byte*>(buffer_.data());
         return {bytes, bytes + buffer_.size()};
     }
 
 private:
+    template <class T>
+    void write(const std::vector<T>& samples, OIIO::TypeDesc type, int end) {
+        written_.bytes(samples.data(), samples.size() * sizeof(T));
+        check(output_->write_scanlines(rows_, end, 0, type, samples.data()));
+    }
+
+    void verify() const {
+        const std::span file(buffer_);
+        const auto read = format_ == "tiff" ? decodedTiff(file, rows_) : decodedJpeg(file, rows_);
+        if (!read || (format_ == "tiff" && *read != written_.key())) throw notWhatWasWritten(format_);
+    }
+
     void check(bool done) const {
         if (!done)
             throw Error(ExitCode::internal, {},
@@ -76,6 +162,7 @@ private:
     std::string format_;
     int bits_, rows_ = 0;
     bool dropsAlpha_ = false;
+    KeyBuilder written_;
     std::vector<unsigned char> buffer_;
     OIIO::Filesystem::IOVecOutput proxy_;
     std::unique_ptr<OIIO::ImageOutput> output_;

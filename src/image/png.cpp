@@ -1,3 +1,4 @@
+#include "base/content_key.h"
 #include "base/error.h"
 #include "image/image.h"
 
@@ -17,6 +18,25 @@ void check(int status) {
     if (status != 0)
         throw Error(status == SPNG_EMEM ? ExitCode::outOfMemory : ExitCode::internal, {},
             fmt::format("PNG encoding failed ({})", spng_strerror(status)));
+}
+
+/// The content key of a PNG's rows, decoded one by one.
+ContentKey decodedRows(std::span<const std::byte> bytes) {
+    const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
+    check(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()));
+    spng_ihdr header{};
+    check(spng_get_ihdr(context.get(), &header));
+    std::size_t size = 0;
+    check(spng_decoded_image_size(context.get(), SPNG_FMT_PNG, &size));
+    check(spng_decode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_DECODE_PROGRESSIVE));
+    std::vector<std::byte> row(size / header.height);
+    KeyBuilder rows;
+    for (std::uint32_t y = 0; y < header.height; ++y) {
+        const int status = spng_decode_row(context.get(), row.data(), row.size());
+        if (y + 1 < header.height || status != SPNG_EOI) check(status);
+        rows.bytes(row.data(), row.size());
+    }
+    return rows.key();
 }
 
 class PngEncoder : public ImageEncoder {
@@ -66,6 +86,7 @@ public:
         const Image& image = band.front().image;
         const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
         const auto write = [&](const auto* pixels) {
+            written_.bytes(pixels, row * sizeof(*pixels));
             const int status = spng_encode_row(context_.get(), pixels, row * sizeof(*pixels));
             if (++rows_ < height_ || status != SPNG_EOI) check(status);
         };
@@ -82,11 +103,13 @@ public:
             spng_get_png_buffer(context_.get(), &size, &status), std::free);
         check(status);
         const auto* bytes = static_cast<const std::byte*>(buffer.get());
+        if (decodedRows({bytes, size}) != written_.key()) throw notWhatWasWritten("PNG");
         return {bytes, bytes + size};
     }
 
 private:
     int bits_, height_, rows_ = 0;
+    KeyBuilder written_;
     std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context_;
 };
 
