@@ -1,12 +1,14 @@
 #include "gpu/atlas.h"
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "image/texture.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -67,6 +69,24 @@ MipChain chainOf(const Files& files, int maxTextureSize) {
     return makeMipChain(std::move(image), !files.second.empty());
 }
 
+/// What the images of all materials will take, by their headers: chains of mip levels, the atlas made of them, and one
+/// image as floats at a time.
+std::uint64_t bytesOf(const std::map<Files, MipChain>& chains, int maxTextureSize) {
+    std::uint64_t kept = 0, once = 0;
+    for (const auto& [files, chain] : chains) {
+        std::uint64_t texels = 0;
+        for (const auto& file : {files.first, files.second}) {
+            if (file.empty()) continue;
+            const ImageInfo info = readImageInfo(file);
+            texels = std::max(texels, static_cast<std::uint64_t>(info.width) * static_cast<std::uint64_t>(info.height));
+        }
+        once = std::max(once, texels * 4 * sizeof(float));
+        const auto most = static_cast<std::uint64_t>(maxTextureSize / 3 * 2);
+        kept += std::min(texels, most * most) * 4 * 3 / 2;
+    }
+    return 2 * kept + once;
+}
+
 }  // namespace
 
 void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
@@ -77,6 +97,11 @@ void TextureAtlas::update(const SceneAt& scene, int maxTextureSize) {
     std::map<Files, MipChain> chains;
     for (const auto& material : scene.materials)
         if (!material.texture.empty() || !material.cutout.empty()) chains[filesOf(material)];
+    std::optional<MemoryClaim> claim;
+    if (!chains.empty())
+        claim.emplace(bytesOf(chains, maxTextureSize), Location{},
+            fmt::format("the scene shows {} image{} as textures", chains.size(), chains.size() == 1 ? "" : "s"),
+            "make some of them smaller");
     for (auto& [files, chain] : chains) chain = chainOf(files, maxTextureSize);
     Layout layout = layOut(chains);
     if (!chains.empty()) texture_ = gl::Texture::pictureArray(layout.side, layout.layers, "texture atlas");

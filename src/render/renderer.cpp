@@ -2,6 +2,7 @@
 
 #include "base/install.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "picture/directions.h"
 #include "stage/shadow_layout.h"
 
@@ -349,11 +350,17 @@ std::vector<Image> Renderer::drawTile(
 
 void Renderer::checkShadows(const SceneAt& scene, const std::string& file) const {
     const ShadowLayout shadows = shadowLayout(scene.lights);
+    if (shadows.maps.empty()) return;
+    const std::uint64_t bytes = sizeof(float) * static_cast<std::uint64_t>(shadows.size.x) * shadows.size.y;
+    const std::string what = fmt::format("the shadows of {} light{} take {} maps", scene.lights.size(),
+        scene.lights.size() == 1 ? "" : "s", shadows.maps.size());
+    const char* const remedy = "lower shadow.resolution, or leave shadow out of some lights; a point light takes six";
     if (std::max(shadows.size.x, shadows.size.y) > largestTexture())
-        throw Error(ExitCode::usage, {file},
-            fmt::format("the shadow maps need a texture of {}×{}, more than this GL device allows ({})", shadows.size.x,
-                shadows.size.y, largestTexture()),
-            "lower shadow.resolution");
+        throw Error(ExitCode::outOfMemory, {file},
+            fmt::format("{}, {} in one texture of {}×{} texels; this GL device allows {} each way", what,
+                bytesText(bytes), shadows.size.x, shadows.size.y, largestTexture()),
+            remedy);
+    const MemoryClaim claim(bytes, {file}, what, remedy);
 }
 
 /// What is to be drawn of a picture, in pixels from the lower left; `crop` counts from the upper left.

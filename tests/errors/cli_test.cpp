@@ -186,6 +186,24 @@ TEST_F(Errors, whatWouldTakeTooMuchIsRefusedBeforeItIsTaken) {
             "fine.toml", fmt::format("[[mesh]]\nname = 'm'\nfile = 'grid.obj'\nsubdivision = {{ {} }}\n", subdivision));
         expect("render config.toml --memory-limit 4G --set scene=fine.toml", 33, "subdivision makes ");
     }
+    for (const char* light : {"kind = 'point'", "kind = 'spot'", "shadow.resolution = 8192"}) {
+        std::string lights = "[[mesh]]\nname = 'm'\nfile = 'grid.obj'\n";
+        for (int i = 0; i < 200; ++i)
+            lights += fmt::format("[[light]]\nname = 'l{}'\nshadow.softness = 1\n{}\n", i, light);
+        write("lights.toml", lights);
+        expect("render config.toml --set scene=lights.toml --set shading.technique=toon", 33,
+            "the shadows of 200 lights take ");
+    }
+    const Image grey{4096, 4096, 1, std::vector<float>(std::size_t{4096} * 4096)};
+    const auto png =
+        encodeImage(*imageFormat("grey.png"), std::vector{Layer{"grey", {"Y"}, false, false, grey}}, {}, {});
+    replaceFile(folder.path() / "grey.png", png);
+    write("images.toml",
+        "[[mesh]]\nname = 'm'\nfile = 'uv.obj'\n[[instance]]\nmesh = 'm'\nmaterial = 'g'\n"
+        "[[material]]\nname = 'g'\ntexture = 'grey.png'\n");
+    write("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    expect("render config.toml --memory-limit 400M --set scene=images.toml", 33, "the scene shows 1 image as textures");
+    EXPECT_EQ(run("render config.toml --set scene=images.toml").exitCode, 0);
     EXPECT_EQ(run("render config.toml --memory-limit lots").exitCode, 64);
     expect("render config.toml --set frames=1-999999999", 64, "at most 1000000 frames");
     expect("render config.toml --frames 1-999999999", 64, "at most 1000000 frames");
