@@ -17,13 +17,41 @@ float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 // Pixel of the whole picture (xy) and number of the sample within it (z).
 ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin / COARSENESS, view.sampleNumber); }
 
-// Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel: additive
-// recurrences with the generalized golden ratios of two and three dimensions (multiples of 2^32), shifted by the seed.
+// Bits of x at the even places, bits of y at the odd ones: squares of 2^n pixels share all but the last 2n bits.
+uint interleaved(uvec2 p) {
+    uvec2 v = p & 0xffffu;
+    v = (v | (v << 8)) & 0x00ff00ffu;
+    v = (v | (v << 4)) & 0x0f0f0f0fu;
+    v = (v | (v << 2)) & 0x33333333u;
+    v = (v | (v << 1)) & 0x55555555u;
+    return v.x | (v.y << 1);
+}
+
+// Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel, without a
+// pattern that a filter could leave behind.
+//
+// Pixels take the points of a (0, 2)-sequence (Sobol's) in the order of a curve through ever larger squares, each
+// turned at random: the error of neighbours differs as much as it can, and its spectrum has no peaks (Ahmed & Wonka,
+// "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels", 2020). The
+// samples of a pixel shift its point by additive recurrences of the golden ratio and of its like in two dimensions.
 vec2 evenlySpread(ivec2 pixel) {
     uvec3 s = uvec3(sampleOf(pixel));
-    uint first = s.x * 3242174889u + s.y * 2447445414u + s.z * 2654435769u;
-    uint second = s.x * 3518319155u + s.y * 2882110345u + s.z * 2360945575u;
-    return vec2(unitFloat(first + mixBits(view.seed * 2u)), unitFloat(second + mixBits(view.seed * 2u + 1u)));
+    // The order at random: each bit of the place flips by a hash of the bits above it. (Laine & Karras 2011, with the
+    // constants of Vegdahl; the first bit of the reversed place is its last.)
+    uint place = bitfieldReverse(interleaved(s.xy));
+    place ^= place * 0x3d20adeau;
+    place += mixBits(view.seed);
+    place *= (mixBits(view.seed) >> 16) | 1u;
+    place ^= place * 0x05526c56u;
+    place ^= place * 0x53a22864u;
+    // Reversed bits of the number in the sequence are the first coordinate; the second mixes them by Pascal's triangle.
+    uint second = place;
+    second ^= (second << 1) & 0xaaaaaaaau;
+    second ^= (second << 2) & 0xccccccccu;
+    second ^= (second << 4) & 0xf0f0f0f0u;
+    second ^= (second << 8) & 0xff00ff00u;
+    second ^= second << 16;
+    return vec2(unitFloat(place + s.z * 2654435769u), unitFloat(second + s.z * 2360945575u));
 }
 
 // A unit vector, uniform over the sphere, from two uniform numbers (Archimedes: heights on a sphere are uniform).

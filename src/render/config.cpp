@@ -362,6 +362,7 @@ std::string_view quickstartStyle() {
     return R"([image]
 size = [1280, 720]
 samples = 8
+ao_samples = 2
 background = "#f4efe4"
 
 [shading]
@@ -373,7 +374,7 @@ floor = 0.28
 technique = "toon_ssao"
 radius = "4%"
 points = 16
-filter = { technique = "gaussian", iterations = 3 }
+filter = { technique = "plane_aware", passes = 4 }
 
 [[edges]]
 technique = "depth_normal"

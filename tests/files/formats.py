@@ -107,7 +107,8 @@ def chromium(paths):
 def draw(limn, output, settings=(), warns=False):
     command = [limn, "render", "config.toml", "--output", output, *settings]
     done = subprocess.run(command, capture_output=True, text=True)
-    said = [line for line in (done.stdout + done.stderr).splitlines() if not line.startswith("Saved: ") and "..." not in line]  # or progress
+    lines = (done.stdout + done.stderr).splitlines()
+    said = [line for line in lines if not line.startswith("Saved: ") and "..." not in line]  # "...": progress
     if done.returncode or bool(said) != warns:
         fail(output, done.returncode, said)
     return said
@@ -179,8 +180,9 @@ def multilayer(limn, transparent, layout, wanted16):
             # Half floats have eleven bits: 2^-12 of the value at most, which display encoding halves; near black more.
             # Below an alpha of 1/255 halves are too coarse to divide by.
             seen = encoded(values[name][i] / a if a > 0 else 0.0)
-            if (a == 0 or a > 1 / 255) and abs(seen - wanted16[i * (4 if transparent else 3) + c]) > (20 if a == 1 else 60):
-                fail(what, "beauty", name, i, seen, wanted16[i * (4 if transparent else 3) + c])
+            wanted = wanted16[i * (4 if transparent else 3) + c]
+            if (a == 0 or a > 1 / 255) and abs(seen - wanted) > (20 if a == 1 else 60):
+                fail(what, "beauty", name, i, seen, wanted)
     compared = 0
     for name in AOVS:
         own = "kept.a.%s.exr" % name
