@@ -172,7 +172,7 @@ private:
     static void guarded(const auto& work) {
         try {
             work();
-        } catch (const Error&) { throw; } catch (const std::exception& error) {
+        } catch (const std::exception& error) {
             throw Error(ExitCode::internal, {}, fmt::format("EXR encoding failed ({})", error.what()));
         }
     }
