@@ -29,6 +29,19 @@ struct Crossing {
     bool ownedByOther;  // the line bounds the neighbour's visible surface, not this pixel's
 };
 
+// A piece of a line that the scene draws itself, as src/effects/edges/marks.cpp packs it: whole numbers in floats. x
+// and y: its ends, two times twelve bits. z: source 3, record 8, thickness 6, strength 6 bits; 0: there is none.
+// Returns a crossing's code without place and owner.
+uint codeOfMark(vec4 mark) {
+    uint code = uint(mark.z);
+    return ((code & 7u) << 8) | (((code >> 3) & 255u) << 11) | (((code >> 11) & 63u) << 19) | ((code >> 17) << 25);
+}
+
+vec2 endOfMark(float packed_) {
+    uint both = uint(packed_);
+    return vec2(both >> 12, both & 4095u) / 4095.0;
+}
+
 // Passes that include this define the numbers of sources, from 1: src/lines/sources.h.
 const uint NO_SOURCE = 0u;
 

@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <charconv>
@@ -40,6 +41,10 @@ std::optional<std::string> nearestName(std::string_view word, std::span<const st
         }
     }
     return nearest;
+}
+
+bool fitsPattern(const std::string& pattern, std::string_view name) {
+    return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
 }
 
 std::string nameRemedy(std::string_view word, std::span<const std::string> candidates) {

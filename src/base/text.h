@@ -13,6 +13,8 @@ namespace limn {
 /// The candidate closest to `word` by edit distance, if it is close enough to be what was meant.
 std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates);
 /// "did you mean 'x'?" when something is near, else "it can be a, b or c".
+/// Does a name fit a pattern: * for any letters, ? for one, [abc] for one of these?
+bool fitsPattern(const std::string& pattern, std::string_view name);
 std::string nameRemedy(std::string_view word, std::span<const std::string> candidates);
 
 /// As a message may show it: control characters, which names can hold, as "\x1b"; what is longer than kLongestMessage

@@ -59,9 +59,9 @@ const MeshFormat& meshFormat(const std::filesystem::path& path) { return formatO
 const SceneFormat& sceneFormat(const std::filesystem::path& path) { return formatOr<SceneFormat>(path, ".toml"); }
 
 void requireFaces(const MeshFile& mesh) {
-    if (mesh.poly.faceCount() == 0)
-        throw Error(ExitCode::badData, {mesh.files.front().string()}, "there are no faces",
-            "limn draws polygons: export the model with faces");
+    if (mesh.poly.faceCount() == 0 && mesh.poly.lines.empty())
+        throw Error(ExitCode::badData, {mesh.files.front().string()}, "there are no faces and no lines",
+            "limn draws polygons and polylines: export the model with faces");
 }
 
 Scene sceneOfMesh(const std::filesystem::path& path) {

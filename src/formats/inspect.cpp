@@ -21,6 +21,7 @@ MeshFacts inspectMesh(const std::filesystem::path& path) {
     }
     facts.uvs = mesh.uvs.size();
     facts.normals = mesh.normals.size();
+    facts.lines = mesh.lines.size();
     facts.materials = mesh.materialNames;
     facts.parts = mesh.partNames;
     facts.creases = mesh.tags.creases.size();
@@ -28,6 +29,7 @@ MeshFacts inspectMesh(const std::filesystem::path& path) {
     facts.holes = mesh.tags.holes.size();
     for (const auto& crease : mesh.tags.creases) facts.infiniteCreases += crease.sharpness >= kInfiniteSharpness;
     for (const auto v : mesh.cornerPosition) facts.bounds.add(mesh.positions[v]);
+    for (const auto& one : mesh.lines) facts.bounds.add(one.a), facts.bounds.add(one.b);
     facts.topology = analyseTopology(mesh);
     facts.warnings = std::move(file.warnings);
     const SubdivisionOptions options = withTags({}, mesh.tags);
@@ -50,6 +52,7 @@ std::string meshFactsText(const MeshFacts& f) {
     line("edges",
         fmt::format("{}: {} on {} boundary loop{}, {} sharper than {} degrees", t.edges, t.boundaryEdges,
             t.boundaryLoops, t.boundaryLoops == 1 ? "" : "s", t.featureEdges, kSmoothAngleDegrees));
+    if (f.lines > 0) line("lines", fmt::format("{}", f.lines));
     line("pieces", fmt::format("{}", t.components));
     line("trouble",
         fmt::format("{} non-manifold edges, {} non-manifold vertices, {} edges that cannot be wound alike, {} faces "
@@ -92,7 +95,7 @@ std::string meshFactsJson(const MeshFacts& f) {
     };
     return fmt::format(
         "{{\"file\": {}, \"faces\": {}, \"triangles\": {}, \"quads\": {}, \"larger_faces\": {}, \"largest_face\": {}, "
-        "\"vertices\": {}, \"unused_vertices\": {}, \"uvs\": {}, \"normals\": {},\n"
+        "\"vertices\": {}, \"unused_vertices\": {}, \"uvs\": {}, \"normals\": {}, \"lines\": {},\n"
         " \"edges\": {}, \"boundary_edges\": {}, \"boundary_loops\": {}, \"feature_edges\": {}, \"components\": {}, "
         "\"non_manifold_edges\": {}, \"non_manifold_vertices\": {}, \"unorientable_edges\": {},\n"
         " \"degenerate_faces\": {}, \"interior_valence_two\": {}, \"creases\": {}, \"infinite_creases\": {}, "
@@ -100,11 +103,11 @@ std::string meshFactsJson(const MeshFacts& f) {
         " \"low\": [{}, {}, {}], \"high\": [{}, {}, {}], \"materials\": {}, \"parts\": {}, \"subdivision\": {}, "
         "\"warnings\": [{}]}}",
         jsonText(f.file), f.faces, f.triangles, f.quads, f.largerFaces, t.largestFace, t.vertices, t.unusedVertices,
-        f.uvs, f.normals, t.edges, t.boundaryEdges, t.boundaryLoops, t.featureEdges, t.components, t.nonManifoldEdges,
-        t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo, f.creases, f.infiniteCreases, f.corners,
-        f.holes, number(f.bounds.lo.x), number(f.bounds.lo.y), number(f.bounds.lo.z), number(f.bounds.hi.x),
-        number(f.bounds.hi.y), number(f.bounds.hi.z), names(f.materials), names(f.parts), jsonText(f.subdivision),
-        fmt::join(warnings, ", "));
+        f.uvs, f.normals, f.lines, t.edges, t.boundaryEdges, t.boundaryLoops, t.featureEdges, t.components,
+        t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo, f.creases,
+        f.infiniteCreases, f.corners, f.holes, number(f.bounds.lo.x), number(f.bounds.lo.y), number(f.bounds.lo.z),
+        number(f.bounds.hi.x), number(f.bounds.hi.y), number(f.bounds.hi.z), names(f.materials), names(f.parts),
+        jsonText(f.subdivision), fmt::join(warnings, ", "));
 }
 
 }  // namespace limn

@@ -9,7 +9,7 @@ namespace limn {
 
 struct MeshFacts {
     std::string file;
-    std::size_t faces = 0, triangles = 0, quads = 0, largerFaces = 0, uvs = 0, normals = 0;
+    std::size_t faces = 0, triangles = 0, quads = 0, largerFaces = 0, uvs = 0, normals = 0, lines = 0;
     std::vector<std::string> materials, parts;
     std::size_t creases = 0, infiniteCreases = 0, corners = 0, holes = 0;
     Bounds bounds;

@@ -48,6 +48,7 @@ struct Chunk {
         corners;  ///< absolute indices from 0, or relative to the chunk's first element where listed below
     std::vector<std::uint32_t> faceEnd;
     std::vector<int> faceLine;
+    std::vector<std::size_t> polylines;  ///< those of the faces that are no faces but `l` elements, ascending
     std::vector<std::uint32_t> relativePosition, relativeUv,
         relativeNormal;  ///< corners whose index is relative to this chunk
     std::vector<StateChange> changes;
@@ -95,7 +96,8 @@ bool readCorner(Cursor& cursor, Chunk& chunk) {
     return true;
 }
 
-void readFace(Cursor cursor, Chunk& chunk, int line) {
+/// `what`: "face" or "line".
+void readFace(Cursor cursor, Chunk& chunk, int line, const char* what = "face") {
     const std::size_t first = chunk.corners.size();
     const std::size_t relative[] = {
         chunk.relativePosition.size(), chunk.relativeUv.size(), chunk.relativeNormal.size()};
@@ -105,7 +107,7 @@ void readFace(Cursor cursor, Chunk& chunk, int line) {
             chunk.relativePosition.resize(relative[0]);
             chunk.relativeUv.resize(relative[1]);
             chunk.relativeNormal.resize(relative[2]);
-            chunk.warnings.add("face with a corner that is no index; dropped", line);
+            chunk.warnings.add(fmt::format("{} with a corner that is no index; dropped", what), line);
             return;
         }
     }
@@ -183,8 +185,12 @@ void readLine(std::string_view text, int line, Chunk& chunk) {
         change(StateChange::Kind::smoothing, {}, value);
     } else if (keyword == "mtllib") {
         chunk.libraries.emplace_back(cursor.rest());
-    } else if (keyword == "l" || keyword == "p") {
-        chunk.warnings.add("line or point element; not drawn", line);
+    } else if (keyword == "l") {
+        const std::size_t before = chunk.faceEnd.size();
+        readFace(cursor, chunk, line, "line");
+        if (chunk.faceEnd.size() > before) chunk.polylines.push_back(before);
+    } else if (keyword == "p") {
+        chunk.warnings.add("point element; not drawn", line);
     } else if (keyword == "t") {
         chunk.tags.emplace_back(cursor.rest(), line);
     } else if (keyword == "vp" || keyword == "call" || keyword == "usemap" || keyword == "maplib" || keyword == "lod"
@@ -323,12 +329,17 @@ private:
 
     void addFaces(const Chunk& chunk, int lineBase, WarningList& warnings) {
         for (const auto& [text, line] : chunk.tags) tags_.emplace_back(text, lineBase + line);
-        std::size_t change = 0, start = 0;
+        std::size_t change = 0, start = 0, polyline = 0;
         for (std::size_t face = 0; face < chunk.faceEnd.size(); ++face) {
             for (; change < chunk.changes.size() && chunk.changes[change].face <= face; ++change)
                 applyChange(chunk.changes[change]);
-            addFace(
-                {chunk.corners.data() + start, chunk.faceEnd[face] - start}, lineBase + chunk.faceLine[face], warnings);
+            const std::span corners(chunk.corners.data() + start, chunk.faceEnd[face] - start);
+            if (polyline < chunk.polylines.size() && chunk.polylines[polyline] == face) {
+                ++polyline;
+                addPolyline(corners, lineBase + chunk.faceLine[face], warnings);
+            } else {
+                addFace(corners, lineBase + chunk.faceLine[face], warnings);
+            }
             start = chunk.faceEnd[face];
         }
         for (; change < chunk.changes.size(); ++change) applyChange(chunk.changes[change]);
@@ -347,6 +358,30 @@ private:
         addUsableFace(corners, line, warnings);
         if (mesh_.faceCount() == before) dropped_.push_back(faces);
         ++faces;
+    }
+
+    void addPolyline(std::span<const Chunk::Corner> corners, int line, WarningList& warnings) {
+        const auto count = static_cast<std::int64_t>(mesh_.positions.size());
+        for (const auto& corner : corners) {
+            if (corner.position < 0 || corner.position >= count)
+                return warnings.add("line refers to a vertex that does not exist; dropped", line);
+            if (!usable_[static_cast<std::size_t>(corner.position)])
+                return warnings.add("line with a vertex that is no finite place; dropped", line);
+        }
+        const std::size_t before = mesh_.lines.size();
+        useNames();
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+            const glm::dvec3 a = mesh_.positions[static_cast<std::size_t>(corners[i].position)],
+                             b = mesh_.positions[static_cast<std::size_t>(corners[i + 1].position)];
+            if (a != b) mesh_.lines.push_back({a, b, material_, part_});
+        }
+        if (mesh_.lines.size() == before) warnings.add("line without length; dropped", line);
+    }
+
+    /// What comes before any `usemtl` or `o` has no name.
+    void useNames() {
+        if (material_ == kUnset) material_ = materials_.index("");
+        if (part_ == kUnset) part_ = parts_.index("");
     }
 
     void addUsableFace(std::span<const Chunk::Corner> corners, int line, WarningList& warnings) {
@@ -379,8 +414,7 @@ private:
             return warnings.add("face with fewer than three corners; dropped", line);
         }
         mesh_.faceStart.push_back(static_cast<std::uint32_t>(mesh_.cornerPosition.size()));
-        if (material_ == kUnset) material_ = materials_.index("");
-        if (part_ == kUnset) part_ = parts_.index("");
+        useNames();
         mesh_.faceMaterial.push_back(material_);
         mesh_.facePart.push_back(part_);
         mesh_.faceSmoothing.push_back(smoothing_);

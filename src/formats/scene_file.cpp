@@ -33,6 +33,11 @@ constexpr Field kMesh[] = {
     field<&MeshSource::file>("file", {.required = true},
         "OBJ file, relative to the scene file; with #### for the number of the frame, a file for each that the scene "
         "declares."),
+    field<&MeshSource::parts>("parts",
+        "Names of the file's parts (an OBJ's o and g; * and ? stand for any letters) that the mesh consists of; "
+        "without "
+        "it all. Instances then give some parts their own material, lines and place."),
+    field<&MeshSource::withoutParts>("without_parts", "Names of parts that are left out, as `parts`."),
     field<&MeshSource::creases>("creases",
         "Sidecar for files without subdivision tags: a TOML file with creases = [[vertex, vertex, sharpness], ...] and "
         "corners = [[vertex, sharpness], ...]; vertices count from 0, sharpness 10 is infinite."),
@@ -138,6 +143,15 @@ constexpr Field kMaterial[] = {
     field<&Material::shininess>(
         "shininess", {.min = 0, .max = 10000}, "Exponent of the highlight; none at 1 or below."),
     field<&Material::specular>("specular", {.min = 0, .max = 10}, "Strength of the highlight."),
+};
+
+constexpr Field kCut[] = {
+    field<&CutLook::fill>("fill", "Colour of its cut faces; \"same\": the section's."),
+    field<&CutLook::hatch>("hatch", {.unit = "picture", .min = -1},
+        "Distance of hatching lines on them; 0 for none, below 0: the section's."),
+    field<&CutLook::hatchAngle>("hatch_angle", {.unit = "degrees", .min = -1, .max = 360},
+        "Their angle from the picture's horizontal; below 0: the section's."),
+    field<&CutLook::hatchColor>("hatch_color", "Their colour; \"same\": the section's."),
 };
 
 constexpr Field kSection[] = {
@@ -289,7 +303,9 @@ private:
     }
 
     void readMaterial(const Node& node) {
-        auto material = readTable<Material>(node, kMaterial, "[[material]]");
+        static constexpr std::string_view alsoKnown[] = {"cut"};
+        auto material = readTable<Material>(node, kMaterial, "[[material]]", alsoKnown);
+        if (const Node* cut = node.find("cut")) readFields(*cut, kCut, &material.base.cut, nullptr, "cut", errors_);
         material.base.texture = resolveFile(node, "texture", material.base.texture);
         material.base.cutout = resolveFile(node, "cutout", material.base.cutout);
         if (!materialNames_.insert(material.base.name).second)
@@ -386,6 +402,8 @@ std::vector<SettingsTable> sceneTables() {
             defaultsOf<decltype(Light::shadow)>()},
         {"[[material]]", "a material; without one, the mesh file's own or warm paper grey", kMaterial,
             defaultsOf<Material>()},
+        {"[[material]] cut", "the cut faces of a material, where a section goes through it", kCut,
+            defaultsOf<CutLook>()},
         {"[[section]]", "a plane that cuts the scene open", kSection, defaultsOf<Section>()},
         {"[animation]", "declared frames; without them the scene is a still", kAnimation, defaultsOf<Animation>()}};
 }

@@ -78,7 +78,7 @@ void Executor::run(
         }
         const gl::DebugGroup group(pass.name);
         if (pass.kind == Pass::Kind::host) {
-            runHost(graph, plan, planned, view, host);
+            runHost(graph, plan, planned, view, host, scene.marks());
             stamp();
             continue;
         }
@@ -136,10 +136,15 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
     gl::dispatch(size, kWorkGroup);
 }
 
-void Executor::runHost(
-    const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const HostScene* host) {
+void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
+    const HostScene* host, std::span<const Mark> marks) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-    HostWork work{&view, host, {}, {}, neededPart(planned, view, view.region.size)};
+    if (has(pass.needs, SceneData::marks) && marks.empty()) {
+        for (std::size_t w = 0; w < pass.writes.size(); ++w)
+            if (planned.writes[w]) texture(plan, pass.writes[w].resource).clear();
+        return;
+    }
+    HostWork work{&view, host, marks, {}, {}, neededPart(planned, view, view.region.size)};
     const auto begin = std::chrono::steady_clock::now();
     for (const auto& read : pass.reads) {
         const auto& image = texture(plan, read.resource);

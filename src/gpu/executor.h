@@ -48,8 +48,8 @@ private:
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(
         const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
-    void runHost(
-        const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const HostScene* host);
+    void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
+        const HostScene* host, std::span<const Mark> marks);
     bool drawsScreen() const { return device_.report().isSoftware; }
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene,
         const gl::Program& program);

@@ -175,6 +175,7 @@ std::uint32_t GpuScene::putWords(Resident& resident, const std::vector<std::uint
 
 void GpuScene::putMesh(const ContentKey& key, const TriMesh& mesh) {
     Resident& resident = residents_[key];
+    resident.segments = mesh.segments;
     resident.positions = positions_.put(bytesOf(mesh.positions));
     resident.triangles = triangles_.put(bytesOf(mesh.indices));
     if (has(needs_, SceneData::normals)) resident.normals = normals_.put(bytesOf(mesh.normals));
@@ -287,6 +288,21 @@ void GpuScene::putCommands() {
     if (putChanged(instanceNumbers_, numberBytes_, bytesOf(numbers), "instance numbers")) generations_.clear();
 }
 
+void GpuScene::putMarks(const SceneAt& scene) {
+    marks_.clear();
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+        const DrawInstance& instance = scene.instances[i];
+        const auto place = [&](const glm::vec3& p) {
+            return glm::dvec3(instance.worldFromMesh * glm::dvec4(shown_[i]->place.pivot + glm::dvec3(p), 1));
+        };
+        for (const Segment& segment : shown_[i]->segments) {
+            const std::uint32_t record = instance.lineRecords[segment.material];
+            if (scene.lineRecords[record].draws)
+                marks_.push_back({place(segment.a), place(segment.b), record, segment.isCut});
+        }
+    }
+}
+
 void GpuScene::connect() {
     const std::vector<int> generations{positions_.generation(), triangles_.generation(), normals_.generation(),
         triangleNormals_.generation(), uvs_.generation(), triangleUvs_.generation(), words_.generation()};
@@ -323,6 +339,7 @@ void GpuScene::update(
     putMeshes(meshOf, made);
     putTables(scene);
     putCommands();
+    if (has(needs_, SceneData::marks)) putMarks(scene);
     connect();
     if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
     if (has(needs_, SceneData::materials)) putMaterials(scene);

@@ -37,6 +37,9 @@ public:
     void bind() const;
     void draw() const;  ///< every instance, in scene order
 
+    /// The lines that the last scene draws itself.
+    std::span<const Mark> marks() const { return marks_; }
+
     /// Can drawSeen() cull the scene?
     bool isCullable() const { return isCullable_; }
     /// Draws the visible triangles in the last view's region: those that face the camera, or then, with `farthest`, the
@@ -54,6 +57,7 @@ private:
         ArenaPiece positions, triangles, normals, triangleNormals, uvs, triangleUvs;
         std::vector<ArenaPiece> words;
         std::vector<Cluster> clusters;
+        std::vector<Segment> segments;
     };
 
     std::uint32_t putWords(Resident& resident, const std::vector<std::uint32_t>& values);
@@ -64,6 +68,7 @@ private:
     void putTables(const SceneAt& scene);
     void putMaterials(const SceneAt& scene);
     void putCommands();
+    void putMarks(const SceneAt& scene);
     /// Connects new buffers to shaders and vertex pipelines.
     void connect();
     void placeMeshes(const SceneAt& scene, const View& view);
@@ -91,6 +96,7 @@ private:
 
     CullView cullView_;
     std::vector<SeenPart> parts_;
+    std::vector<Mark> marks_;
 };
 
 }  // namespace limn

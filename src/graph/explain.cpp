@@ -133,7 +133,8 @@ private:
         constexpr std::pair<SceneData, const char*> all[] = {{SceneData::positions, "positions"},
             {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"},
-            {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"}};
+            {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"},
+            {SceneData::marks, "the scene's own lines"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)
             if (has(plan_.sceneData, flag)) names.emplace_back(text);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "picture/format.h"
+#include "picture/marks.h"
 #include "picture/pixel_rect.h"
 #include "picture/sampling.h"
 #include "picture/view.h"
@@ -45,7 +46,8 @@ enum class SceneData : unsigned {
     textures = 32,
     unifiedVertices = 64,
     rays = 128,
-    colors = 256
+    colors = 256,
+    marks = 512
 };
 constexpr SceneData operator|(SceneData a, SceneData b) {
     return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -91,6 +93,7 @@ struct HostImage {
 struct HostWork {
     const View* view = nullptr;        ///< the sample's
     const HostScene* scene = nullptr;  ///< where the pass needs SceneData::rays: a RayScene
+    std::span<const Mark> marks;       ///< where the pass needs SceneData::marks
     std::vector<HostImage> reads, writes;
     PixelRect part;  ///< of the images: only this is wanted
 };
@@ -100,7 +103,7 @@ inline constexpr int kMaskTile = 4;
 
 struct Pass {
     /// Compute and raster passes run on the GPU; a host pass runs on the CPU, between reading images back and sending
-    /// them on.
+    /// them on. One that needs marks does not run where there are none: its images are 0.
     enum class Kind { compute, raster, host };
     std::string name;
     std::string slot, technique;

@@ -18,11 +18,12 @@ struct LineSource {
     std::string_view doc, colorDoc;
     std::string_view sampler;       ///< shaders' name of the image that is compared, beyond depth and face
     const Aov* compares = nullptr;  ///< that image; null: depth and face are enough
-    bool onlyOfSections = false;    ///< only scenes that are cut open have it
+    enum class Only { always, cutOpen, withMarks };
+    Only only = Only::always;  ///< which scenes have it: those that are cut open, or with lines of their own
 };
 
 /// Where several reasons hold, sections count before silhouettes, then objects, materials and creases
-/// (depth_normal.comp).
+/// (depth_normal.comp). Marks are no difference between pixels (effects/edges/marks.h).
 inline constexpr LineSource kLineSources[] = {
     {"silhouettes", "silhouette_color", "SILHOUETTE", 1,
         "Weight of lines where one surface ends in front of another or of nothing; at 0 there are none.",
@@ -34,7 +35,9 @@ inline constexpr LineSource kLineSources[] = {
     {"materials", "material_color", "MATERIAL", 0, "Weight of lines where materials meet.",
         "Colour of lines where materials meet.", "materialId", &aov::materialId},
     {"sections", "section_color", "SECTION", 2, "Weight of lines around the cut faces of sections.",
-        "Colour of lines around cut faces.", "", nullptr, true},
+        "Colour of lines around cut faces.", "", nullptr, LineSource::Only::cutOpen},
+    {"marks", "mark_color", "MARK", 1, "Weight of lines that mesh files draw themselves (an OBJ's l).",
+        "Colour of lines that mesh files draw.", "", nullptr, LineSource::Only::withMarks},
 };
 inline constexpr std::size_t kLineSourceCount = std::size(kLineSources);
 

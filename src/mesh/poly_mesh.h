@@ -34,6 +34,12 @@ struct SubdivisionTags {
     bool empty() const { return *this == SubdivisionTags{}; }
 };
 
+/// A straight line that a mesh file draws: part of an OBJ's `l` element.
+struct MeshLine {
+    glm::dvec3 a{0}, b{0};                 ///< file units
+    std::uint32_t material = 0, part = 0;  ///< as of faces
+};
+
 struct PolyMesh {
     static constexpr std::int32_t kNone = -1;
 
@@ -52,6 +58,8 @@ struct PolyMesh {
     std::vector<std::uint32_t> facePart;       ///< index into partNames: the OBJ's objects and groups
     std::vector<std::uint32_t> faceSmoothing;  ///< smoothing group; 0 = flat
     bool hasSmoothing = false;                 ///< the file mentions smoothing; else smooth by angle
+
+    std::vector<MeshLine> lines;  ///< in the file's order, those of a polyline one after the other
 
     SubdivisionTags tags;
 

@@ -54,11 +54,32 @@ public:
             else if (above < 3)
                 split(corners, h, material, part);
         }
+        for (const auto& segment : in_.segments) clip(segment);
         fill();
         return {std::move(out_), open_};
     }
 
 private:
+    /// A piece of outline: a cut triangle's.
+    struct OutlineEdge {
+        glm::vec3 from, to;
+        std::uint32_t material, part;  ///< material: of the mesh, also where a cut face was cut
+        std::uint32_t fromPoint = 0, toPoint = 0;
+    };
+
+    void clip(Segment segment) {
+        const double a = plane_.height(segment.a), b = plane_.height(segment.b);
+        if (a > 0 && b > 0) return;
+        const auto between = [&] { return segment.a + (segment.b - segment.a) * static_cast<float>(a / (a - b)); };
+        if (a > 0)
+            segment.a = between();
+        else if (b > 0)
+            segment.b = between();
+        out_.segments.push_back(segment);
+    }
+
+    std::uint32_t meshMaterial(std::uint32_t material) const { return material % std::max(plane_.materialCount, 1u); }
+
     void add(const std::array<Corner, 3>& corners, std::uint32_t material, std::uint32_t part) {
         for (const auto& corner : corners) {
             out_.indices.push_back(corner.position);
@@ -104,7 +125,7 @@ private:
         for (std::size_t k = 1; k + 1 < kept.size(); ++k)
             if (!isThin(kept[0], kept[k], kept[k + 1])) add({kept[0], kept[k], kept[k + 1]}, material, part);
         const glm::vec3 from = out_.positions[ends[0].position], to = out_.positions[ends[1].position];
-        if (from != to) outline_.emplace_back(from, to);
+        if (from != to) outline_.push_back({from, to, meshMaterial(material), part});
     }
 
     bool isThin(const Corner& a, const Corner& b, const Corner& c) const {
@@ -112,28 +133,49 @@ private:
         return p[a.position] == p[b.position] || p[b.position] == p[c.position] || p[c.position] == p[a.position];
     }
 
-    void fill() {
-        // Walks outlines from point to point. Where several lines leave a point, any of them will do: winding decides
-        // what is inside.
-        std::vector<glm::dvec3> points;
+    using Outlines = std::vector<std::vector<std::uint32_t>>;
+
+    /// Numbers the ends of the outline's edges: equal places are one point.
+    void numberPoints() {
         std::unordered_map<glm::vec3, std::uint32_t, PointHash> number;
         const auto numberOf = [&](const glm::vec3& p) {
-            const auto [it, isNew] = number.emplace(p, static_cast<std::uint32_t>(points.size()));
-            if (isNew) points.emplace_back(p);
+            const auto [it, isNew] = number.emplace(p, static_cast<std::uint32_t>(points_.size()));
+            if (isNew) points_.emplace_back(p);
             return it->second;
         };
-        std::multimap<std::uint32_t, std::uint32_t> onward;
-        for (const auto& [from, to] : outline_) onward.emplace(numberOf(from), numberOf(to));
+        for (auto& edge : outline_) edge.fromPoint = numberOf(edge.from), edge.toPoint = numberOf(edge.to);
+    }
+
+    /// The material of most of a line's length.
+    std::uint32_t materialOf(const std::vector<std::size_t>& line) const {
+        std::map<std::uint32_t, double> lengths;
+        for (const auto e : line)
+            lengths[outline_[e].material] += static_cast<double>(glm::distance(outline_[e].from, outline_[e].to));
+        return std::max_element(lengths.begin(), lengths.end(), [](const auto& a, const auto& b) {
+            return a.second < b.second;
+        })->first;
+    }
+
+    /// Walks from point to point. Where several edges leave a point, the one of the same part and material goes on, or
+    /// else any: winding decides what is inside. Closed outlines are sorted by material, open ones become segments.
+    std::map<std::uint32_t, Outlines> walkOutlines() {
+        std::multimap<std::uint32_t, std::size_t> onward;
+        for (std::size_t e = 0; e < outline_.size(); ++e) onward.emplace(outline_[e].fromPoint, e);
+        const auto nextAfter = [&](std::size_t e) {
+            const auto [first, last] = onward.equal_range(outline_[e].toPoint);
+            const auto alike = std::find_if(first, last, [&](const auto& other) {
+                return outline_[other.second].material == outline_[e].material
+                    && outline_[other.second].part == outline_[e].part;
+            });
+            return alike != last ? alike : first != last ? first : onward.end();
+        };
         // Open lines begin at points that more edges leave than reach: walk those first.
-        std::vector<int> surplus(points.size());
-        for (const auto& [from, to] : onward) {
-            ++surplus[from];
-            --surplus[to];
-        }
+        std::vector<int> surplus(points_.size());
+        for (const auto& edge : outline_) ++surplus[edge.fromPoint], --surplus[edge.toPoint];
         std::vector<std::uint32_t> starts;
         for (std::uint32_t i = 0; i < surplus.size(); ++i)
             starts.insert(starts.end(), static_cast<std::size_t>(std::max(surplus[i], 0)), i);
-        std::vector<std::vector<std::uint32_t>> outlines;
+        std::map<std::uint32_t, Outlines> closed;
         while (!onward.empty()) {
             auto next = onward.begin();
             if (!starts.empty()) {
@@ -141,17 +183,37 @@ private:
                 starts.pop_back();
             }
             if (next == onward.end()) continue;
-            std::vector<std::uint32_t> line{next->first};
-            for (; next != onward.end() && (line.size() == 1 || line.back() != line.front());
-                 next = onward.find(line.back())) {
+            std::vector<std::size_t> line;
+            do {
                 line.push_back(next->second);
                 onward.erase(next);
-            }
-            if (line.back() != line.front())
-                ++open_;
-            else if (line.pop_back(); line.size() >= 3)
-                outlines.push_back(std::move(line));
+                next = nextAfter(line.back());
+            } while (next != onward.end() && outline_[line.back()].toPoint != outline_[line.front()].fromPoint);
+            finishLine(line, closed);
         }
+        return closed;
+    }
+
+    void finishLine(const std::vector<std::size_t>& line, std::map<std::uint32_t, Outlines>& closed) {
+        const std::uint32_t material = materialOf(line);
+        if (outline_[line.back()].toPoint == outline_[line.front()].fromPoint) {
+            if (line.size() < 3) return;
+            auto& outline = closed[material].emplace_back();
+            for (const auto e : line) outline.push_back(outline_[e].fromPoint);
+            return;
+        }
+        ++open_;
+        for (const auto e : line)
+            out_.segments.push_back({outline_[e].from, outline_[e].to, plane_.material + material, true});
+    }
+
+    void fill() {
+        numberPoints();
+        for (const auto& [material, outlines] : walkOutlines()) fill(plane_.material + material, outlines);
+    }
+
+    void fill(std::uint32_t material, const Outlines& outlines) {
+        std::vector<glm::dvec3> points = points_;
         const glm::dvec3 normal = glm::normalize(plane_.gradient);
         const auto triangles = triangulateOutlines(points, outlines, normal);
         if (triangles.empty()) return;
@@ -170,7 +232,7 @@ private:
             std::array<Corner, 3> corners;
             for (std::size_t k = 0; k < 3; ++k)
                 corners[k] = {firstPoint + triangles[i + k], firstNormal, firstUv, firstColor};
-            add(corners, plane_.material, plane_.part);
+            add(corners, material, plane_.part);
         }
     }
 
@@ -178,7 +240,8 @@ private:
     const CutPlane& plane_;
     const MeshNeeds& needs_;
     TriMesh out_;
-    std::vector<std::pair<glm::vec3, glm::vec3>> outline_;
+    std::vector<OutlineEdge> outline_;
+    std::vector<glm::dvec3> points_;  ///< of the outline
     std::size_t open_ = 0;
 };
 
@@ -186,7 +249,9 @@ private:
 
 bool isCut(const TriMesh& mesh, const CutPlane& plane) {
     return std::any_of(
-        mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) { return plane.height(p) > 0; });
+               mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) { return plane.height(p) > 0; })
+        || std::any_of(mesh.segments.begin(), mesh.segments.end(),
+            [&](const Segment& s) { return plane.height(s.a) > 0 || plane.height(s.b) > 0; });
 }
 
 CutMesh cutMesh(const TriMesh& mesh, const CutPlane& plane, const MeshNeeds& needs) {

@@ -248,6 +248,7 @@ TriMesh subdivide(const PolyMesh& given, const SubdivisionOptions& options, cons
     if (out.triangleCount() == 0)
         throw Error(ExitCode::badData, {name}, "subdivision leaves no surface",
             "holes or the boundary rule remove every face: change 'boundary', or leave 'subdivision' out");
+    out.segments = segmentsOf(cage, pivot);
     if (!needs.unified) numberByLastVertex(out);
     return out;
 }

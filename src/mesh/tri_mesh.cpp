@@ -175,6 +175,8 @@ bool allZero(const std::vector<std::uint32_t>& values) {
 glm::dvec3 choosePivot(const PolyMesh& mesh) {
     Bounds bounds;
     for (const auto v : mesh.cornerPosition) bounds.add(mesh.positions[v]);
+    if (bounds.empty())
+        for (const auto& line : mesh.lines) bounds.add(line.a), bounds.add(line.b);
     const double size = bounds.diagonal();
     if (!(size > 0)) return bounds.centre();
     const double grid = std::ldexp(1.0, std::ilogb(size) - 8);
@@ -221,6 +223,13 @@ void numberByLastVertex(TriMesh& mesh) {
     mesh.positions = std::move(positions);
 }
 
+std::vector<Segment> segmentsOf(const PolyMesh& mesh, const glm::dvec3& pivot) {
+    std::vector<Segment> segments;
+    for (const auto& line : mesh.lines)
+        segments.push_back({glm::vec3(line.a - pivot), glm::vec3(line.b - pivot), line.material, false});
+    return segments;
+}
+
 TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
     TriMesh out = triangulateMesh(mesh, needs, choosePivot(mesh));
     if (!needs.unified) numberByLastVertex(out);
@@ -230,6 +239,7 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs) {
 TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm::dvec3& pivot) {
     TriMesh out;
     out.pivot = pivot;
+    out.segments = segmentsOf(mesh, pivot);
     const bool wantMaterials = !allZero(mesh.faceMaterial), wantParts = !allZero(mesh.facePart);
     const Triangles triangles = triangulate(mesh, wantMaterials || wantParts);
 

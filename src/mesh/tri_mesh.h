@@ -21,6 +21,13 @@ struct MeshNeeds {
     bool operator==(const MeshNeeds&) const = default;
 };
 
+/// A line to be drawn whatever the surfaces are.
+struct Segment {
+    glm::vec3 a{0}, b{0};        ///< as TriMesh::positions
+    std::uint32_t material = 0;  ///< as TriMesh::triangleMaterial
+    bool isCut = false;          ///< the cut of a surface without thickness
+};
+
 struct TriMesh {
     glm::dvec3 pivot{0};               ///< positions are relative to it: float keeps its precision far from the origin
     std::vector<glm::vec3> positions;  ///< mesh units
@@ -35,6 +42,8 @@ struct TriMesh {
     std::vector<std::uint32_t> colorIndices;   ///< three colours per triangle; empty when unified, or without colours
     std::vector<std::uint32_t> triangleMaterial;  ///< index into PolyMesh::materialNames; empty = all 0
     std::vector<std::uint32_t> trianglePart;      ///< index into PolyMesh::partNames; empty = all 0
+
+    std::vector<Segment> segments;
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };
@@ -52,6 +61,8 @@ TriMesh buildTriMesh(const PolyMesh& mesh, const MeshNeeds& needs);
 glm::dvec3 choosePivot(const PolyMesh& mesh);
 /// buildTriMesh around a given pivot, before the numbering.
 TriMesh triangulateMesh(const PolyMesh& mesh, const MeshNeeds& needs, const glm::dvec3& pivot);
+/// The lines that the file draws, around a pivot.
+std::vector<Segment> segmentsOf(const PolyMesh& mesh, const glm::dvec3& pivot);
 
 /// Rotates the corners of triangles, and reorders and repeats positions, so that indices[3·t + 2] == t. Shaders could
 /// number triangles too (gl_PrimitiveID), but software renderers are slow at it.

@@ -38,6 +38,14 @@ struct Hatch {
     Color color;
 };
 
+/// What sections show of a material. What is not said is the section's.
+struct CutLook {
+    OptionalColor fill;
+    PictureLength hatch{-1, PictureLength::Unit::pixels};  ///< distance of hatching lines; 0: none; below 0: not said
+    double hatchAngle = -1;                                ///< degrees from the picture's horizontal; below 0: not said
+    OptionalColor hatchColor;
+};
+
 /// What texture coordinates may be multiplied by or moved by, at most.
 inline constexpr double kMostRepeats = 1e6;
 
@@ -58,6 +66,7 @@ struct Material {
     double creaseAngle = 0;  ///< degrees; 0 = as the line technique says
     bool isCut = false;      ///< the cut face of a section
     Hatch hatch;             ///< lines across it, on the cut faces of sections
+    CutLook cut;             ///< of its own cut faces
 };
 
 /// Are the texels of a material's image visible as squares? `size`: in texels.
@@ -117,9 +126,10 @@ struct SubdivisionSettings {
 
 struct MeshSource {
     std::string name;
-    std::string file;       ///< absolute, or relative to the working directory
-    bool perFrame = false;  ///< the file's name is a pattern: #### stands for the frame number
-    std::string creases;    ///< sidecar of creases and corners; empty = none
+    std::string file;                              ///< absolute, or relative to the working directory
+    bool perFrame = false;                         ///< the file's name is a pattern: #### stands for the frame number
+    std::vector<std::string> parts, withoutParts;  ///< patterns: only these parts of the file, and not those
+    std::string creases;                           ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;
 

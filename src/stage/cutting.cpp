@@ -25,8 +25,8 @@ Cut cutInstance(const SceneAt& scene, const MeshNeeds& needs, const DrawInstance
     for (std::size_t s = 0; s < scene.sections.size(); ++s) {
         const SectionPlane& section = scene.sections[s];
         const CutPlane plane{glm::transpose(linear) * section.normal, glm::dot(section.normal, pivot - section.point),
-            static_cast<std::uint32_t>(poly.materialNames.size() + s),
-            static_cast<std::uint32_t>(poly.partNames.size())};
+            static_cast<std::uint32_t>((1 + s) * poly.materialNames.size()),
+            static_cast<std::uint32_t>(poly.materialNames.size()), static_cast<std::uint32_t>(poly.partNames.size())};
         if (!isCut(*mesh, plane)) continue;
         CutMesh done = cutMesh(*mesh, plane, needs);
         result.openOutlines += done.openOutlines;
@@ -49,7 +49,8 @@ void cutOpen(const SceneAt& scene, const MeshNeeds& needs, std::span<const MeshO
     for (std::size_t i = 0; i < orders.size(); ++i) {
         const std::size_t open = cuts[i].openOutlines;
         if (open > 0)
-            log::warning("object '{}' is not closed where a section cuts it: {} outline{} without a cut face",
+            log::warning(
+                "object '{}' is not closed where a section cuts it: {} outline{} without a cut face, drawn as lines",
                 scene.instances[orders[i]->instances.front()].name, open, open == 1 ? "" : "s");
         if (!cuts[i].mesh) {
             made.shownAs[orders[i]->key] = orders[i]->whole;

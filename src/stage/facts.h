@@ -20,6 +20,7 @@ struct SceneFacts {
     bool coloredLight = false;  ///< some light is not grey
     bool lineRecords = false;   ///< some object or material says something about its lines
     bool sections = false;      ///< something is cut open
+    bool marks = false;         ///< some mesh draws lines of its own, or may leave some where it is cut open
     bool hatched = false;       ///< and its cut faces are hatched
     int triangleBits = 0;       ///< bits of a triangle's number, beside its instance's in 32 bits; 0 if both do not fit
 };

@@ -18,7 +18,7 @@ void addVector(KeyBuilder& key, const glm::dvec3& v) { key.add(v.x).add(v.y).add
 
 ContentKey materialKey(const Material& material, const ImageKeys& images) {
     const auto& [name, color, texture, cutout, scale, offset, repeats, filter, vertexColors, shininess, specular, lines,
-        lineColor, creaseAngle, isCut, hatch] = material;
+        lineColor, creaseAngle, isCut, hatch, cut] = material;  // what `cut` says is in the cut faces' own materials
     const auto& [spacing, width, angle, hatchColor] = hatch;
     KeyBuilder key;
     key.add(name);

@@ -19,13 +19,39 @@
 namespace limn {
 namespace {
 
-/// Box of the vertices that faces use, transformed one by one: the box of a turned box would be too large.
+/// Box of the vertices that faces and lines use, transformed one by one: the box of a turned box would be too large.
 Bounds instanceBounds(const PolyMesh& mesh, const glm::dmat4& worldFromMesh) {
     Bounds bounds;
     const bool identity = worldFromMesh == glm::dmat4(1);
     for (const auto v : mesh.cornerPosition)
         bounds.add(identity ? mesh.positions[v] : glm::dvec3(worldFromMesh * glm::dvec4(mesh.positions[v], 1)));
+    for (const auto& line : mesh.lines)
+        for (const auto& end : {line.a, line.b}) bounds.add(glm::dvec3(worldFromMesh * glm::dvec4(end, 1)));
     return bounds;
+}
+
+/// Leaves of a mesh what its source asks for. Throws Error where a pattern fits no part.
+void chooseParts(const MeshSource& source, PolyMesh& mesh) {
+    if (source.parts.empty() && source.withoutParts.empty()) return;
+    const auto fitsAny = [](const std::vector<std::string>& patterns, const std::string& part) {
+        return std::any_of(
+            patterns.begin(), patterns.end(), [&](const auto& pattern) { return fitsPattern(pattern, part); });
+    };
+    for (const auto& patterns : {source.parts, source.withoutParts})
+        for (const auto& pattern : patterns)
+            if (std::none_of(mesh.partNames.begin(), mesh.partNames.end(),
+                    [&](const auto& part) { return fitsPattern(pattern, part); }))
+                throw Error(ExitCode::usage, source.where,
+                    fmt::format("no part of '{}' is named '{}'", source.file, pattern),
+                    nameRemedy(pattern, mesh.partNames));
+    const auto isKept = [&](std::uint32_t part) {
+        const std::string& name = mesh.partNames[part];
+        return (source.parts.empty() || fitsAny(source.parts, name)) && !fitsAny(source.withoutParts, name);
+    };
+    std::vector<char> keep(mesh.faceCount());
+    for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = isKept(mesh.facePart[f]) ? 1 : 0;
+    keepFaces(mesh, keep);
+    std::erase_if(mesh.lines, [&](const MeshLine& line) { return !isKept(line.part); });
 }
 
 /// Reads one mesh and its tags and materials.
@@ -34,6 +60,11 @@ MeshFile readMesh(const MeshSource& source, int frame) {
     MeshFile mesh = meshFormat(path).read(path);
     KeyBuilder key;
     key.add(mesh.key.low).add(mesh.key.high);
+    chooseParts(source, mesh.poly);
+    for (const auto& patterns : {source.parts, source.withoutParts}) {
+        key.add(patterns.size());
+        for (const auto& pattern : patterns) key.add(pattern);
+    }
     if (!source.creases.empty()) {
         std::vector<std::filesystem::path> sidecar;
         readCreases(source.creases, mesh.poly, &sidecar);
@@ -48,7 +79,7 @@ MeshFile readMesh(const MeshSource& source, int frame) {
     };
     // An animation may begin or end with nothing.
     if (!source.perFrame) requireFaces(mesh);
-    note("there are no faces; an empty frame", mesh.poly.faceCount() == 0);
+    note("there are no faces; an empty frame", mesh.poly.faceCount() == 0 && mesh.poly.lines.empty());
     const bool welds = source.subdivision.present && source.subdivision.weld;
     const bool repairs = source.subdivision.present || mesh.poly.cornerNormal.empty();
     if (welds)

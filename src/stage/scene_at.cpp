@@ -64,9 +64,8 @@ std::uint32_t lineRecord(SceneAt& scene, const Instance& object, const Material&
     return static_cast<std::uint32_t>(scene.lineRecords.size() - 1);
 }
 
-/// Collects the requested sections and their materials.
-std::vector<std::uint32_t> resolveSections(
-    const Scene& scene, const FrameRequest& request, SceneAt& at, std::vector<Material>& materials) {
+/// The requested sections.
+std::vector<Section> resolveSections(const Scene& scene, const FrameRequest& request) {
     std::vector<std::string> names;
     for (const auto& section : scene.sections) names.push_back(section.base.name);
     for (const auto& name : request.sections)
@@ -74,29 +73,57 @@ std::vector<std::uint32_t> resolveSections(
             throw Error(ExitCode::usage, {request.file},
                 fmt::format("there is no section '{}' in {}", name, scene.file),
                 names.empty() ? "add a [[section]] with that name to the scene" : nameRemedy(name, names));
-    std::vector<std::uint32_t> numbers;
+    std::vector<Section> sections;
     for (const auto& keyed : scene.sections) {
         if (!keyed.base.name.empty()
             && std::find(request.sections.begin(), request.sections.end(), keyed.base.name) == request.sections.end())
             continue;
-        const Section section = keyed.at(request.frame);
-        const double length = glm::length(section.normal);
+        sections.push_back(keyed.at(request.frame));
+        const double length = glm::length(sections.back().normal);
         if (!(length > 0))
             throw Error(ExitCode::usage, {scene.file},
-                fmt::format("the normal of section '{}' has no length at frame {}", section.name, request.frame),
+                fmt::format("the normal of section '{}' has no length at frame {}", keyed.base.name, request.frame),
                 "keep its keys from pointing opposite ways");
-        at.sections.push_back({section.point, section.normal / length});
-        numbers.push_back(static_cast<std::uint32_t>(materials.size()));
-        const auto pixels = [&](const PictureLength& width) {
-            return width.inPixels(request.imageSize.y, request.dpi);
-        };
-        materials.push_back({.name = "section " + section.name,
-            .color = section.fill,
-            .isCut = true,
-            .hatch = {pixels(section.hatch), pixels(section.hatchWidth), section.hatchAngle, section.hatchColor}});
+        sections.back().normal /= length;
     }
-    return numbers;
+    return sections;
 }
+
+/// The materials of cut faces: one for each section and material that it may cut, as lines part unlike ones.
+class CutMaterials {
+public:
+    CutMaterials(std::vector<Section> sections, const FrameRequest& request)
+        : sections_(std::move(sections)), request_(request) {}
+
+    const std::vector<Section>& sections() const { return sections_; }
+
+    std::uint32_t of(std::size_t section, std::uint32_t material, std::vector<Material>& materials) {
+        const auto [it, isNew] = known_.emplace(std::pair(section, material), 0);
+        if (isNew) {
+            it->second = static_cast<std::uint32_t>(materials.size());
+            materials.push_back(make(sections_[section], materials[material]));
+        }
+        return it->second;
+    }
+
+private:
+    Material make(const Section& section, const Material& cut) const {
+        const auto pixels = [&](const PictureLength& width) {
+            return width.inPixels(request_.imageSize.y, request_.dpi);
+        };
+        const CutLook& own = cut.cut;
+        return {.name = fmt::format("section {}: {}", section.name, cut.name),
+            .color = own.fill.otherwise(section.fill),
+            .isCut = true,
+            .hatch = {pixels(own.hatch.amount >= 0 ? own.hatch : section.hatch), pixels(section.hatchWidth),
+                own.hatchAngle >= 0 ? own.hatchAngle : section.hatchAngle,
+                own.hatchColor.otherwise(section.hatchColor)}};
+    }
+
+    std::vector<Section> sections_;
+    const FrameRequest& request_;
+    std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known_;
+};
 
 /// The most triangles that a mesh may become. A face of n corners becomes n grids of 2^(level - 1) squares each way;
 /// one that meets itself is first cut into n - 2 triangles, of three such grids each. Rates of edges are bounded by the
@@ -107,8 +134,7 @@ std::uint64_t mostTriangles(const MeshSource& source, const PolyMesh& poly) {
 }
 
 /// The instances, with the numbers of their objects, materials and line records.
-void placeInstances(
-    const Scene& scene, const std::vector<std::uint32_t>& cutMaterials, MaterialTable& materials, SceneAt& at) {
+void placeInstances(const Scene& scene, CutMaterials& cuts, MaterialTable& materials, SceneAt& at) {
     std::uint32_t nextObject = 1;
     for (const auto& keyed : scene.instances) {
         const Instance instance = keyed.at(at.frame);
@@ -119,11 +145,13 @@ void placeInstances(
         for (const auto& name : poly.materialNames)
             placed.materials.push_back(
                 instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
-        placed.materials.insert(placed.materials.end(), cutMaterials.begin(), cutMaterials.end());
+        for (std::size_t section = 0; section < cuts.sections().size(); ++section)
+            for (std::size_t i = 0; i < poly.materialNames.size(); ++i)
+                placed.materials.push_back(cuts.of(section, placed.materials[i], materials.materials));
         for (const auto material : placed.materials)
             placed.lineRecords.push_back(lineRecord(at, instance, materials.materials[material]));
         nextObject += static_cast<std::uint32_t>(poly.partNames.size())
-            + (cutMaterials.empty() ? 0 : 1);  // cut faces are an object of their own
+            + (cuts.sections().empty() ? 0 : 1);  // cut faces are an object of their own
         at.instances.push_back(std::move(placed));
     }
 }
@@ -168,6 +196,8 @@ double reachOf(const LoadedScene& loaded, const glm::dvec3& direction) {
             },
             [](double a, double b) { return std::max(a, b); });
         reach = std::max(reach, most + offset);
+        for (const auto& line : poly.lines)
+            reach = std::max({reach, glm::dot(line.a, inMesh) + offset, glm::dot(line.b, inMesh) + offset});
     }
     return reach;
 }
@@ -217,8 +247,9 @@ SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
     at.meshes = loaded.meshes->at(static_cast<int>(request.frame));
     at.info = sceneInfo(loaded);
     MaterialTable materials(scene, at.meshes, request.frame);
-    const auto cutMaterials = resolveSections(scene, request, at, materials.materials);
-    placeInstances(scene, cutMaterials, materials, at);
+    CutMaterials cuts(resolveSections(scene, request), request);
+    for (const auto& section : cuts.sections()) at.sections.push_back({section.point, section.normal});
+    placeInstances(scene, cuts, materials, at);
     at.materials = std::move(materials.materials);
     at.camera = cameraAt(loaded, request);
     for (const auto& light : scene.lights) at.lights.push_back(lightAt(light, scene.file, request.frame));

@@ -51,7 +51,8 @@ struct SceneAt {
     std::vector<Material> materials;
     std::vector<LineRecord> lineRecords{LineRecord()};  ///< the first is empty
     std::vector<Light> lights;
-    std::vector<SectionPlane> sections;  ///< cut faces have the materials after the instance's own, one per section
+    std::vector<SectionPlane>
+        sections;  ///< cut faces have the materials after the instance's own: for each section as many, in their order
     Camera camera;
     SceneInfo info;
     std::vector<ContentKey> materialKeys, textureKeys;  ///< parallel to materials

@@ -25,7 +25,6 @@ const std::map<std::string, std::string> kLongFunctions{
     {"src/mesh/tri_mesh.cpp triangulateMesh", "one pass over the faces that fills all attributes side by side"},
     {"src/mesh/tessellate.cpp evaluate", "one face's points in the order in which Bfr gives them"},
     {"src/mesh/tessellate.cpp layOut", "counts and places in one walk over the faces"},
-    {"src/mesh/section.cpp fill", "GLU's tessellator and its callbacks belong together"},
     {"src/formats/obj.cpp readLine", "one case for each keyword of OBJ"},
     {"src/formats/obj.cpp addTag", "one case for each tag of OpenSubdiv"},
     {"src/rays/ambient_occlusion.cpp traceAmbientOcclusion",

@@ -25,7 +25,7 @@ Surface surfaceAt(ivec2 pixel) {
 #ifdef WITH_OBJECT
     s.object = load(objectId, pixel).r;
 #endif
-#ifdef WITH_MATERIAL
+#if defined(WITH_MATERIAL) || defined(WITH_SECTION)
     s.material = load(materialId, pixel).r;
 #endif
     s.record = 0u;
@@ -97,6 +97,14 @@ Side sideBetween(Surface a, Surface b) {
 #ifdef WITH_SECTION
     bool cutA = !emptyA && lineRecordAt(a.record).isCut, cutB = !emptyB && lineRecordAt(b.record).isCut;
     source = cutA != cutB ? SECTION : source;
+    // On the cut only unlike materials are parted, whatever object they belong to.
+    bool parts = a.material != b.material;
+#ifdef WITH_MATERIAL
+    source = cutA && cutB ? (parts ? MATERIAL : NO_SOURCE) : source;
+#else
+    source = cutA && cutB ? (parts ? SECTION : NO_SOURCE) : source;
+#endif
+    outline = outline && !(cutA && cutB);
     ownedByB = cutA != cutB ? cutB : ownedByB;
 #endif
     return Side(drawn ? source : NO_SOURCE, ownedByB, outline);

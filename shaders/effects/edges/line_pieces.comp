@@ -16,9 +16,19 @@ Piece join(Corner a, Corner b) {
     return Piece(a.place, b.place, a.code, along.x * off.y - along.y * off.x > 0.0);
 }
 
+#ifdef WITH_SEAMS
+bool isSeam(ivec2 pixel) { return load(seams, clamp(pixel, ivec2(0), view.size - 1)).r > 0.0; }
+#endif
+
+// The crossings of a pixel's two ways. There are none to or from a pixel that looks into a seam.
 uvec2 crossingsAt(ivec2 pixel) {
-    return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size)) ? uvec2(0)
-                                                                                     : load(crossings, pixel).xy;
+    bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, view.size));
+    uvec2 found = load(crossings, clamp(pixel, ivec2(0), view.size - 1)).xy;
+#ifdef WITH_SEAMS
+    outside = outside || isSeam(pixel);
+    found *= uvec2(!isSeam(pixel + ivec2(1, 0)), !isSeam(pixel + ivec2(0, 1)));
+#endif
+    return outside ? uvec2(0) : found;
 }
 
 // A crossing without a continuation on either side is a speck, not a line.
@@ -34,7 +44,7 @@ bool goesOn(ivec2 cell, bool viaBottom, bool viaRight, bool viaUpper) {
 void main() {
     ivec2 cell = thisPixel();
     if (!insideRegion(cell) || IS_MASKED(cell)) return;
-    uvec2 own = load(crossings, cell).xy;
+    uvec2 own = crossingsAt(cell);
     uint bottom = own.x, left = own.y, right = crossingsAt(cell + ivec2(1, 0)).y,
          upper = crossingsAt(cell + ivec2(0, 1)).x;
     int count = int(bottom != 0u) + int(right != 0u) + int(upper != 0u) + int(left != 0u);

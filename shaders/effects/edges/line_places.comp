@@ -39,6 +39,39 @@ float meetingPlace(Surface a, Surface b) {
     return atA * atB < 0.0 ? atA / (atA - atB) : 0.5;
 }
 
+#ifdef WITH_TRIANGLES
+// A gap narrower than this, in pixels, is a seam of one surface: it is seen by chance, in a row of dots.
+const float SEAM = 0.1;
+
+bool isOnPlaneOf(Surface one, Surface other) {
+    return !isBackground(one.depth) && dot(one.face, other.face) > 0.9999
+        && abs(dot(one.position - other.position, other.face)) < 0.5 * pixelFootprint(other.depth);
+}
+
+// Does a pixel look into a seam? On both sides of it, along x or y, the same plane goes on, up to places that are that
+// close. (Where triangles beside the visible ones reach the seam, it stays a line.)
+bool isSeam(Surface s) {
+    uint pending = 0u;
+    for (int axis = 0; axis < 2; ++axis) {
+        ivec2 way = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
+        Surface before = surfaceAt(max(s.pixel - way, ivec2(0))), after = surfaceAt(min(s.pixel + way, view.size - 1));
+        bool mayBe = !isBackground(before.depth) && isOnPlaneOf(after, before) && !isOnPlaneOf(s, before);
+        pending |= uint(mayBe) << axis;
+    }
+    bool found = false;
+    while (pending != 0u) {
+        ivec2 way = (pending & 1u) != 0u ? ivec2(1, 0) : ivec2(0, 1), before = s.pixel - way, after = s.pixel + way;
+        float reach = spanOf(triangleOf(seenAt(before)), before, way).y,
+              reachBack = spanOf(triangleOf(seenAt(after)), after, -way).y;
+        // Where something lies in front, the plane goes on behind it.
+        bool bothEnd = max(reach, reachBack) < 1.001;
+        found = found || (bothEnd && 2.0 - reach - reachBack < SEAM);
+        pending &= pending - 1u;
+    }
+    return found;
+}
+#endif
+
 uint crossingBetween(Surface a, Surface b, Side side) {
     if (side.source == NO_SOURCE) return 0u;
     bool bIsNearer = b.depth < a.depth;
@@ -79,4 +112,7 @@ void main() {
         pending &= pending - 1u;
     } while (pending != 0u);
     write_result(uvec4(crossings, 0u, 0u));
+#ifdef WITH_TRIANGLES
+    write_seams(vec4(isSeam(here) ? 1.0 : 0.0));
+#endif
 }

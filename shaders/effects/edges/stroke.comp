@@ -56,6 +56,16 @@ Seen see(uvec2 code, vec2 fromCorner) {
         (along.x * off.y - along.y * off.x > 0.0) == piece.ownerIsLeft);
 }
 
+#ifdef WITH_MARKS
+// A mark has no sides: it is drawn on both.
+Seen seeMark(vec4 mark, vec2 fromCorner) {
+    vec2 from = endOfMark(mark.x), along = endOfMark(mark.y) - from, off = fromCorner - from;
+    float squared = dot(along, along);
+    if (mark.z == 0.0) off = vec2(1e4);
+    return Seen(off - clamp(dot(off, along) / max(squared, 1e-9), 0.0, 1.0) * along, along, codeOfMark(mark), true);
+}
+#endif
+
 // The inks on the pixel: colour and opacity.
 vec4 top = vec4(0), rest = vec4(0);
 
@@ -122,6 +132,15 @@ void main() {
             if (!beside) occupied &= occupied - 1u;
         } while (occupied != 0u);
     }
+#ifdef WITH_MARKS
+    for (int i = 0; i < WINDOW * WINDOW * 4; ++i) {
+        ivec2 cell = cellNear(pixel, i);
+        vec4 one = load(marks, cell), two = load(marksBeside, cell);
+        if (one.z + two.z == 0.0) continue;
+        add(seeMark(one, here - vec2(cell - pixel)));
+        add(seeMark(two, here - vec2(cell - pixel)));
+    }
+#endif
     finish();
     vec4 color = params.opacity * (vec4(top.rgb, 1) * top.a + (1.0 - top.a) * rest.a * vec4(rest.rgb, 1));
 #ifdef LAYERS_BELOW

@@ -12,6 +12,7 @@
 // the farther below. On a bent surface both lie on one side, so neither tilt nor curvature draws a false line, and a
 // step may be a fraction of a pixel high.
 
+#include "effects/edges/marks.h"
 #include "effects/edges/stroke.h"
 
 #include <fmt/format.h>
@@ -103,10 +104,12 @@ Constants derive(const Params& params, const View& view) {
     return c;
 }
 
-Stroke strokeOf(const Params& params, const View& view, bool hasSections) {
+Stroke strokeOf(const Params& params, const View& view, const SceneFacts& scene) {
     Stroke stroke;
     for (std::size_t i = 0; i < kLineSourceCount; ++i) {
-        if (kLineSources[i].onlyOfSections && !hasSections) continue;
+        if ((kLineSources[i].only == LineSource::Only::cutOpen && !scene.sections)
+            || (kLineSources[i].only == LineSource::Only::withMarks && !scene.marks))
+            continue;
         stroke.styles[i] = {view.pixels(params.width) * static_cast<double>(params.weights[i]),
             params.colors[i].otherwise(params.color)};
     }
@@ -120,7 +123,7 @@ Stroke strokeOf(const Params& params, const View& view, bool hasSections) {
 }
 
 void build(EffectBuilder& graph, const Params& params) {
-    const Stroke stroke = strokeOf(params, graph.view(), graph.scene().sections);
+    const Stroke stroke = strokeOf(params, graph.view(), graph.scene());
     if (params.opacity <= 0 || stroke.widest() <= 0) return;
     const ResourceId sides = graph.image("line_sides" + graph.layerSuffix(), Format::r32ui);
     Pass pass;
@@ -134,6 +137,9 @@ void build(EffectBuilder& graph, const Params& params) {
         pass.defines.emplace_back(fmt::format("WITH_{}", source.define), "");
         if (source.compares) pass.reads.push_back({std::string(source.sampler), graph.read(*source.compares), 1});
     }
+    const bool cuts = graph.scene().sections && stroke.styles[lineSource("SECTION")].width > 0;
+    if (cuts && stroke.styles[lineSource("MATERIAL")].width <= 0)
+        pass.reads.push_back({"materialId", graph.read(aov::materialId), 1});
     if (graph.scene().lineRecords) {
         pass.defines.emplace_back("WITH_RECORDS", "");
         pass.reads.push_back({"lineRecord", graph.read(aov::lineRecord), 1});
@@ -144,7 +150,10 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     pass.note = "2 neighbours per pixel";
     graph.add(std::move(pass));
-    strokeLines(graph, sides, stroke);
+    std::vector<ResourceId> marks;
+    if (graph.scene().marks)
+        for (const ResourceId image : placeMarks(graph, stroke, lineRate(graph))) marks.push_back(image);
+    strokeLines(graph, sides, stroke, marks);
 }
 
 const Technique kDepthNormal{"edges", "depth_normal",

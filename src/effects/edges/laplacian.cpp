@@ -12,7 +12,6 @@
 #include "effects/edges/stroke.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 
@@ -59,10 +58,6 @@ public:
     std::vector<std::uint32_t> words;
 };
 
-bool matches(const std::string& pattern, std::string_view name) {
-    return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
-}
-
 void complain(const std::string& what, const std::string& pattern, const std::vector<std::string>& known) {
     throw Error(
         ExitCode::usage, {}, fmt::format("laplacian: no {} is called '{}'", what, pattern), nameRemedy(pattern, known));
@@ -82,7 +77,7 @@ Chosen choose(const Params& params, const SceneFacts& scene) {
         for (const auto& instance : scene.instances) {
             known.emplace_back(instance.name);
             for (std::size_t part = 0; part < instance.parts.size(); ++part) {
-                if (!matches(pattern, instance.name) && !matches(pattern, instance.parts[part])) continue;
+                if (!fitsPattern(pattern, instance.name) && !fitsPattern(pattern, instance.parts[part])) continue;
                 chosen.objects.set(instance.firstObject + part);
                 found = true;
             }
@@ -94,7 +89,7 @@ Chosen choose(const Params& params, const SceneFacts& scene) {
         std::vector<std::string> known;
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             known.push_back(scene.materials[i].name);
-            if (matches(pattern, scene.materials[i].name)) {
+            if (fitsPattern(pattern, scene.materials[i].name)) {
                 chosen.materials.set(i + 1);
                 found = true;
             }

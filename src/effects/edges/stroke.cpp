@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace limn {
 namespace edges_stroke {
@@ -50,8 +51,12 @@ namespace edges_stroke {
 /// Adds the passes in order.
 class Strokes {
 public:
-    Strokes(EffectBuilder& graph, const Stroke& stroke)
-        : graph_(graph), stroke_(stroke), suffix_(graph.layerSuffix()), records_(graph.scene().lineRecords) {
+    Strokes(EffectBuilder& graph, const Stroke& stroke, const std::vector<ResourceId>& marks)
+        : graph_(graph),
+          stroke_(stroke),
+          marks_(marks),
+          suffix_(graph.layerSuffix()),
+          records_(graph.scene().lineRecords) {
         const auto narrower = [](const auto& a, const auto& b) { return a.width < b.width; };
         widest_ = *std::max_element(stroke.styles.begin(), stroke.styles.end(), narrower);
         // In pixels: a line covers pixels up to half a pixel's diagonal beyond it, and its sample may lie half a pixel
@@ -83,7 +88,9 @@ private:
     /// Marks the tiles with lines and those nearby. Later passes run only there, since lines cover little of a picture.
     void findNear(ResourceId sides) {
         tiles_ = graph_.image("line_tiles" + suffix_, Format::r8, kMaskTile);
-        graph_.add(pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles_}}, "where there are lines"));
+        Pass mark = pass("line_tiles", {{"sides", sides, kMaskTile}}, {{"result", tiles_}}, "where there are lines");
+        readMarks(mark, kMaskTile);
+        graph_.add(std::move(mark));
         const NearConstants constants{(window_ + kMaskTile - 1) / kMaskTile};
         near_ = graph_.image("near_lines" + suffix_, Format::r8, kMaskTile);
         Pass spread = pass("near_lines", {{"tiles", tiles_, (constants.reach + 1) * kMaskTile}}, {{"result", near_}},
@@ -103,6 +110,8 @@ private:
             place.defines.emplace_back("WITH_TRIANGLES", "");
             graph_.defineSeen(place);
             place.reads.push_back({"visibility", *visibility, 2});
+            seams_ = graph_.image("line_seams" + suffix_, Format::r8);
+            place.writes.push_back({"seams", *seams_});
         }
         if (records_) {
             place.defines.emplace_back("WITH_RECORDS", "");
@@ -123,6 +132,10 @@ private:
         Pass join = pass("line_pieces", {mask(), {"crossings", crossings_, 2}},
             {{"first", first_}, {"second", second_}}, "crossings joined");
         join.mask = 0;
+        if (seams_) {
+            join.defines.emplace_back("WITH_SEAMS", "");
+            join.reads.push_back({"seams", *seams_, 3});
+        }
         graph_.add(std::move(join));
     }
 
@@ -136,6 +149,7 @@ private:
             draw.defines.emplace_back("WITH_RECORDS", "");
             draw.needs = SceneData::positions;
         }
+        readMarks(draw, window_);
         addStyles(draw);
         if (const auto below = graph_.find(aov::edges)) {
             // Where this layer has no lines, the layers below must stay.
@@ -148,6 +162,13 @@ private:
         draw.writes = {{"result", result}};
         graph_.add(std::move(draw));
         graph_.publish(aov::edges, result);
+    }
+
+    void readMarks(Pass& pass, int halo) const {
+        if (marks_.empty()) return;
+        pass.defines.emplace_back("WITH_MARKS", "");
+        pass.reads.push_back({"marks", marks_[0], halo});
+        pass.reads.push_back({"marksBeside", marks_[1], halo});
     }
 
     void addStyles(Pass& draw) const {
@@ -171,17 +192,19 @@ private:
 
     EffectBuilder& graph_;
     const Stroke& stroke_;
+    const std::vector<ResourceId>& marks_;
     std::string suffix_;
     bool records_;
     LineStyle widest_;
     int window_ = 1;  ///< pixels: the distance up to which lines matter to a pixel
+    std::optional<ResourceId> seams_;
     ResourceId tiles_, near_, crossings_, first_, second_;
 };
 
 }  // namespace edges_stroke
 
-void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke) {
-    edges_stroke::Strokes(graph, stroke).draw(sides);
+void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke, const std::vector<ResourceId>& marks) {
+    edges_stroke::Strokes(graph, stroke, marks).draw(sides);
 }
 
 }  // namespace limn

@@ -18,7 +18,8 @@ void defineSources(Pass& pass);
 /// Adds the passes that draw the lines of `sides` (an R32UI image, see shaders/lib/lines.glsl) over the layers before,
 /// and publishes `edges`. The visible triangles give a line's exact place, where the geometry knows them. Widths are
 /// Euclidean, the same in every direction and at every number of samples; ends are round. Objects and materials may
-/// have colours of their own.
-void strokeLines(EffectBuilder& graph, ResourceId sides, const Stroke& stroke);
+/// have colours of their own. `marks`: images of further pieces (effects/edges/marks.h).
+void strokeLines(
+    EffectBuilder& graph, ResourceId sides, const Stroke& stroke, const std::vector<ResourceId>& marks = {});
 
 }  // namespace limn
