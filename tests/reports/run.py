@@ -238,6 +238,18 @@ def scan_normals_33():
 
 
 @report
+def polylines_13():
+    picture, said = draw(folder("13") + "/draw.toml")
+    assert "point element; not drawn" in said and "line element" not in said, said
+    rope = [sum(picture.at(x, y)) < 400 for x in range(130, 240) for y in range(325, 347)]
+    assert sum(rope) > 100, "the rope in front of the hut"
+    lines, _ = draw(folder("13") + "/plan_lines_only.obj")
+    covered = lines.covered()
+    assert len(covered) > 1500, "a file of lines alone is a picture"
+    assert max(x for _, x in covered) - min(x for _, x in covered) > 0.8 * lines.width, "and fills it"
+
+
+@report
 def odd_structure_28():
     for path in sorted(glob.glob(folder("28") + "/*.[oO][bB][jJ]")):
         name = os.path.basename(path)
@@ -254,6 +266,27 @@ def odd_structure_28():
         else:
             picture, _ = draw(path, "--set", "image.size=[64,48]", "--set", "image.samples=1")
             assert picture.at(32, 24) != picture.at(0, 0), name + " is not drawn"
+
+
+@report
+def walls_in_section_30():
+    here = folder("30")
+    view, _ = draw(here + "/view.toml")
+    joint = [view.at(x, y) for x in range(505, 520) for y in range(120, 310)]
+    assert max(sum(abs(a - b) for a, b in zip(p, joint[0])) for p in joint) <= 6, "dots along a joint of equal walls"
+    cut, said = draw(here + "/plan.toml", "--set", "edges.0.materials=1")
+    assert "drawn as lines" in said, said
+    dark = lambda x, y: sum(cut.at(x, y)) < 250
+    # 100 pixels a unit, the origin at (50, 370). Brick meets insulation at y = 0.3, the column at x = 7 and 7.3.
+    for x in (100, 200, 600, 900):
+        assert any(dark(x, 370 + offset - 30) for offset in (-1, 0, 1)), "between brick and insulation at %d" % x
+    for x in (750, 780):
+        assert any(dark(x + offset, 357) for offset in (-1, 0, 1)), "beside the column"
+    for x in (350, 550):
+        lines = [sum(cut.at(x + offset, y)) for offset in range(-3, 4) for y in range(346, 367)]
+        assert min(lines) > 350, "no line between equal walls at %d: %d" % (x, min(lines))
+    sheet = [any(dark(x, y) for y in range(208, 213)) for x in range(372, 468)]
+    assert all(sheet), "the sheet leaves its line"
 
 
 @report

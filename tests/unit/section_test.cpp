@@ -72,7 +72,7 @@ TEST(Section, halfABoxIsClosedAndHasHalfTheVolume) {
 
 TEST(Section, twoPlanesCutAQuarter) {
     const TriMesh box = boxes({{glm::vec3(-1), glm::vec3(1)}});
-    const CutMesh half = cutMesh(box, {{1, 0, 0}, 0, 7, 1}, kNeeds);
+    const CutMesh half = cutMesh(box, {{1, 0, 0}, 0, 7, 1, 1}, kNeeds);
     const CutMesh quarter = cutMesh(half.mesh, {{0, 1, 0}, 0, 8, 1}, kNeeds);
     const Measure m = measure(quarter.mesh, 8);
     EXPECT_NEAR(m.volume, 2, 1e-6);
@@ -81,7 +81,7 @@ TEST(Section, twoPlanesCutAQuarter) {
 }
 
 TEST(Section, solidsInOneAnotherAreFilledOnceAndHolesStayOpen) {
-    const CutPlane level{{0, 0, 1}, 0, 7, 1};
+    const CutPlane level{{0, 0, 1}, 0, 7, 1, 1};
     const TriMesh nested = boxes({{glm::vec3(-2), glm::vec3(2)}, {glm::vec3(-1), glm::vec3(3)}});
     EXPECT_NEAR(measure(cutMesh(nested, level, kNeeds).mesh, 7).cutArea, 16 + 16 - 9, 1e-5);
     TriMesh hollow = boxes({{glm::vec3(-2), glm::vec3(2)}});
@@ -100,11 +100,46 @@ TEST(Section, surfacesWithoutThicknessAreCutButNotFilled) {
     TriMesh sheet;
     sheet.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
     sheet.indices = {0, 1, 2, 0, 2, 3};
-    const CutMesh cut = cutMesh(sheet, {{0, 0, 1}, 0, 7, 1}, {});
+    const CutMesh cut = cutMesh(sheet, {{0, 0, 1}, 0, 7, 1, 1}, {});
     EXPECT_EQ(cut.openOutlines, 1u);
+    double length = 0;
+    for (const Segment& segment : cut.mesh.segments) {
+        EXPECT_TRUE(segment.isCut && segment.a.y == 0 && segment.a.z == 0 && segment.material == 7);
+        length += static_cast<double>(glm::distance(segment.a, segment.b));
+    }
+    EXPECT_NEAR(length, 2, 1e-6) << "the sheet leaves its line";
     EXPECT_EQ(measure(cut.mesh, 7).cutArea, 0);
-    EXPECT_TRUE(isCut(sheet, {{0, 0, 1}, 0, 7, 1}));
-    EXPECT_FALSE(isCut(sheet, {{0, 0, 1}, -1, 7, 1})) << "a plane that only touches takes nothing away";
+    EXPECT_TRUE(isCut(sheet, {{0, 0, 1}, 0, 7, 1, 1}));
+    EXPECT_FALSE(isCut(sheet, {{0, 0, 1}, -1, 7, 1, 1})) << "a plane that only touches takes nothing away";
+}
+
+TEST(Section, everyMaterialIsFilledByItself) {
+    // Two boxes of brick that overlap, one of concrete that touches both along a face, all in one mesh.
+    TriMesh wall = boxes({{glm::vec3(0, 0, -1), glm::vec3(3, 1, 1)}, {glm::vec3(2, 0, -1), glm::vec3(5, 1, 1)},
+        {glm::vec3(0, 1, -1), glm::vec3(5, 1.5f, 1)}});
+    for (std::uint32_t t = 0; t < wall.triangleCount(); ++t) wall.triangleMaterial.push_back(t < 24 ? 0 : 1);
+    const CutMesh cut = cutMesh(wall, {{0, 0, 1}, 0, 4, 2, 1}, kNeeds);
+    EXPECT_EQ(cut.openOutlines, 0u);
+    EXPECT_NEAR(measure(cut.mesh, 4).cutArea, 5, 1e-5);
+    EXPECT_NEAR(measure(cut.mesh, 5).cutArea, 2.5, 1e-5);
+}
+
+TEST(Section, aSolidHasTheMaterialOfMostOfItsOutline) {
+    TriMesh box = boxes({{glm::vec3(-1), glm::vec3(1)}});  // one side plastered
+    for (std::uint32_t t = 0; t < box.triangleCount(); ++t) box.triangleMaterial.push_back(t >= 10 ? 1 : 0);
+    const CutMesh cut = cutMesh(box, {{0, 0, 1}, 0, 2, 2, 1}, kNeeds);
+    EXPECT_NEAR(measure(cut.mesh, 2).cutArea, 4, 1e-5);
+    EXPECT_EQ(measure(cut.mesh, 3).cutArea, 0);
+}
+
+TEST(Section, linesAreCutToo) {
+    TriMesh lines;
+    lines.segments = {{{0, 0, -1}, {0, 0, 3}}, {{1, 0, 1}, {1, 0, 2}}, {{2, 0, -2}, {2, 0, -1}}};
+    ASSERT_TRUE(isCut(lines, {{0, 0, 1}, 0, 1, 1, 1}));
+    const auto left = cutMesh(lines, {{0, 0, 1}, 0, 1, 1, 1}, {}).mesh.segments;
+    ASSERT_EQ(left.size(), 2u);
+    EXPECT_EQ(left[0].b, glm::vec3(0, 0, 0));
+    EXPECT_EQ(left[1].b, glm::vec3(2, 0, -1));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct Look {
                   sections = static_cast<std::uint32_t>(lineSource("SECTION")) + 1;
 };
 
-/// A mark in the picture: places count from the centre of the region's first pixel, in pixels.
+/// A mark in the picture. Places count from the centre of the whole picture's first pixel, in pixels: every tile rounds
+/// them alike.
 struct Projected {
     glm::dvec2 a{0}, b{0};
     double depthA = 1, depthB = 1;  ///< normalized units
@@ -35,7 +36,7 @@ std::optional<Projected> project(const View& view, const Mark& mark) {
     }
     const auto place = [&](const glm::dvec3& p) {
         const glm::dvec2 ray = view.orthographic ? glm::dvec2(p) : glm::dvec2(p) / -p.z;
-        return (ray - view.rayOffset) / view.rayScale - 0.5 - glm::dvec2(view.region.origin);
+        return (ray - view.rayOffset) / view.rayScale - 0.5;
     };
     return Projected{place(a), place(b), -a.z, -b.z};
 }
@@ -53,12 +54,12 @@ public:
         // The part within the region's cells.
         double from = 0, to = 1;
         for (int i = 0; i < 2; ++i) {
-            const double last = depth_.size[i] - 1 - 1e-9;
+            const double first = view_.region.origin[i], last = first + depth_.size[i] - 1;
             if (way[i] == 0) {
-                if (line->a[i] < 0 || line->a[i] >= last) return;
+                if (line->a[i] < first || line->a[i] >= last) return;
                 continue;
             }
-            const double t0 = -line->a[i] / way[i], t1 = (last - line->a[i]) / way[i];
+            const double t0 = (first - line->a[i]) / way[i], t1 = (last - line->a[i]) / way[i];
             from = std::max(from, std::min(t0, t1));
             to = std::min(to, std::max(t0, t1));
         }
@@ -70,20 +71,32 @@ public:
                 if (way[i] != 0)
                     if (const double t = (cell[i] + (way[i] > 0 ? 1 : 0) - line->a[i]) / way[i]; t > from + 1e-9)
                         end = std::min(end, t);
-            put(*line, mark, cell, from, end, images_[image]);
+            if (isInside(cell)) put(*line, mark, cell, from, end, images_[image]);
             from = std::max(end, from + 1e-9);
         }
     }
 
 private:
+    /// Does a cell begin at a pixel of the region?
+    bool isInside(const glm::ivec2& cell) const {
+        const glm::ivec2 at = cell - view_.region.origin;
+        return at.x >= 0 && at.y >= 0 && at.x < depth_.size.x && at.y < depth_.size.y;
+    }
+
     double depthAt(const Projected& line, double t) const {
         if (view_.orthographic) return line.depthA + (line.depthB - line.depthA) * t;
         return 1 / (1 / line.depthA + (1 / line.depthB - 1 / line.depthA) * t);
     }
 
     glm::dvec3 viewPosition(const glm::dvec2& place, double depth) const {
-        const glm::dvec2 ray = (place + 0.5 + glm::dvec2(view_.region.origin)) * view_.rayScale + view_.rayOffset;
+        const glm::dvec2 ray = (place + 0.5) * view_.rayScale + view_.rayOffset;
         return {view_.orthographic ? ray : ray * depth, -depth};
+    }
+
+    /// Where an image has a pixel of the whole picture.
+    std::size_t placeOf(const glm::ivec2& pixel, const HostImage& image) const {
+        const glm::ivec2 at = pixel - view_.region.origin;
+        return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(image.size.x) + static_cast<std::size_t>(at.x);
     }
 
     /// Is a point within a cell hidden at all four of its corners, the pixels around it?
@@ -91,9 +104,9 @@ private:
         const glm::dvec3 point = viewPosition(place, depth);
         const double footprint = view_.rayScale.x * (view_.orthographic ? 1 : depth);
         for (int corner = 0; corner < 4; ++corner) {
-            const glm::ivec2 pixel = glm::min(cell + glm::ivec2(corner % 2, corner / 2), depth_.size - 1);
-            const auto at = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(depth_.size.x)
-                + static_cast<std::size_t>(pixel.x);
+            const glm::ivec2 last = view_.region.origin + depth_.size - 1,
+                             pixel = glm::min(cell + glm::ivec2(corner % 2, corner / 2), last);
+            const std::size_t at = placeOf(pixel, depth_);
             const float seen = depth_.values[at];
             if (seen == kBackgroundDepth || static_cast<double>(seen) >= depth) return false;
             const glm::vec3 normal = decodeDirection({normal_.values[2 * at], normal_.values[2 * at + 1]});
@@ -119,9 +132,7 @@ private:
             return static_cast<float>(static_cast<int>(at.x) * 4096 + static_cast<int>(at.y));
         };
         const float values[4] = {packed(from), packed(to), static_cast<float>(code), 0};
-        const auto at = static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(image.size.x)
-            + static_cast<std::size_t>(cell.x);
-        std::copy(values, values + 4, image.values.begin() + static_cast<std::ptrdiff_t>(4 * at));
+        std::copy(values, values + 4, image.values.begin() + static_cast<std::ptrdiff_t>(4 * placeOf(cell, image)));
     }
 
     const View& view_;
