@@ -20,7 +20,7 @@ namespace limn {
 
 /// Facts about the scene that effects may need.
 struct SceneInfo {
-    Bounds bounds;  ///< of the drawn objects' vertices, at the first declared frame; scene units
+    Bounds bounds;  ///< of the drawn objects' vertices, at the first declared frame that shows any; scene units
     glm::dvec3 up{0, 1, 0};
 
     double diagonal() const { return bounds.diagonal(); }

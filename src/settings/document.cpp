@@ -99,7 +99,34 @@ Node convert(const toml::node& node, const std::string& file) {
     return result;
 }
 
+/// The name of an entry of a list of named things; null for anything else.
+const std::string* nameOf(const Node& entry) {
+    const Node* name = entry.isTable() ? entry.find("name") : nullptr;
+    return name ? std::get_if<std::string>(&name->value) : nullptr;
+}
+
+bool isListOfNamed(const Node& node) {
+    return node.isArray() && !node.array().empty()
+        && std::all_of(node.array().begin(), node.array().end(), [](const Node& entry) { return nameOf(entry); });
+}
+
+void merge(Node& below, Node&& above);
+
+/// Adds to a list of named things those of another; what has a name that is there changes that one.
+void join(Node& below, Node&& above) {
+    auto& entries = std::get<Node::Array>(below.value);
+    for (Node& added : std::get<Node::Array>(above.value)) {
+        const auto same = std::find_if(
+            entries.begin(), entries.end(), [&](const Node& entry) { return *nameOf(entry) == *nameOf(added); });
+        if (same != entries.end())
+            merge(*same, std::move(added));
+        else
+            entries.push_back(std::move(added));
+    }
+}
+
 void merge(Node& below, Node&& above) {
+    if (isListOfNamed(below) && isListOfNamed(above)) return join(below, std::move(above));
     if (!below.isTable() || !above.isTable()) {
         below = std::move(above);
         return;

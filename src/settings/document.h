@@ -10,8 +10,8 @@
 namespace limn {
 
 /// Reads a TOML file and resolves `include = ["a.toml"]`. Included files are layered in order; the including file wins.
-/// Tables merge key by key; other values are replaced. Appends every file read to `files`, if given. Throws Error:
-/// missing or unreadable file, TOML syntax, include cycles.
+/// Tables merge key by key, lists of things with a `name` thing by thing; other values are replaced. Appends every file
+/// read to `files`, if given. Throws Error: missing or unreadable file, TOML syntax, include cycles.
 Node readDocument(const std::filesystem::path& path, std::vector<std::filesystem::path>* files = nullptr);
 
 /// Parses TOML text; `name` stands for the file in messages.

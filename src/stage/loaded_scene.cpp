@@ -285,6 +285,16 @@ static void hintAtUp(const LoadedScene& loaded) {
             loaded.scene.file);
 }
 
+/// The box of everything that is drawn at a frame.
+static Bounds boundsAt(const LoadedScene& loaded, int frame, const std::vector<SharedMesh>& meshes) {
+    Bounds bounds;
+    for (const auto& instance : loaded.scene.instances) {
+        const Instance placed = instance.at(frame);
+        bounds.add(instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, placed.transform()));
+    }
+    return bounds;
+}
+
 LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& options) {
     LoadedScene loaded;
     loaded.viewers = makeEdgeViewers();
@@ -312,10 +322,12 @@ LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& 
     const auto meshes = firstMeshes(loaded);
     for (const auto& mesh : meshes)
         if (mesh) warnOfMaterials(*mesh, loaded.scene);
-    for (const auto& instance : loaded.scene.instances) {
-        const Instance placed = instance.at(first);
-        loaded.bounds.add(instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, placed.transform()));
-    }
+    loaded.bounds = boundsAt(loaded, first, meshes);
+    // An animation may begin with nothing.
+    const int last = loaded.scene.frames ? loaded.scene.frames->last : first;
+    std::vector<Error> failed;  // told by whoever draws that frame
+    for (int frame = first + 1; frame <= last && loaded.bounds.empty(); ++frame)
+        collect(failed, [&] { loaded.bounds = boundsAt(loaded, frame, loaded.meshes->at(frame)); });
 
     KeyBuilder key;
     for (const auto& file : loaded.files) key.add(MappedFile(file).text());

@@ -40,7 +40,7 @@ struct EdgeViewers;
 struct LoadedScene {
     Scene scene;
     std::shared_ptr<const MeshLibrary> meshes;
-    Bounds bounds;                             ///< of the drawn instances at the first declared frame
+    Bounds bounds;                             ///< of the drawn instances at the first declared frame that shows any
     std::vector<std::filesystem::path> files;  ///< of the scene itself, its materials' images included
     ContentKey key;                            ///< of those
     ImageKeys images;                          ///< of the scene's own materials

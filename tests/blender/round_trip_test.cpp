@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 namespace limn::test {
@@ -172,6 +174,27 @@ TEST_F(RoundTrip, outlinesAreBlendersWithinAPixel) {
         EXPECT_EQ(astray, 0) << camera;
         EXPECT_GT(covered, 5000) << camera;
     }
+}
+
+// What a person has edited stays: configs, and the file that the scene includes.
+TEST_F(RoundTrip, aSecondExportLeavesAloneWhatPeopleEdit) {
+    const fs::path own = folder() / "scene_own.toml";
+    ASSERT_TRUE(fs::exists(own));
+    std::vector<fs::path> configs;
+    for (const auto& entry : fs::directory_iterator(folder()))
+        if (entry.path().extension() == ".toml" && entry.path().stem().string().find("scene") == std::string::npos)
+            configs.push_back(entry.path());
+    ASSERT_FALSE(configs.empty());
+    std::ofstream(configs.front(), std::ios::app) << "# mine\n";
+    std::ofstream(own, std::ios::app) << "[[light]]\nname = \"mine\"\nkind = \"point\"\n";
+    SetUpTestSuite();
+    ASSERT_EQ(ran(), 0);
+    std::ifstream config(configs.front());
+    const std::string text{std::istreambuf_iterator<char>(config), {}};
+    EXPECT_TRUE(text.ends_with("# mine\n"));
+    const LoadedScene loaded = loadScene(folder() / "scene.toml");
+    EXPECT_TRUE(std::any_of(loaded.scene.lights.begin(), loaded.scene.lights.end(),
+        [](const auto& light) { return light.base.name == "mine"; }));
 }
 
 }  // namespace

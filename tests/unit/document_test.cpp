@@ -78,6 +78,18 @@ TEST_F(Files, thatIncludeOthersTwiceOverDoNotDoubleForEver) {
     EXPECT_EQ(read.size(), 3U);
 }
 
+TEST_F(Files, joinListsOfNamedThings) {
+    write("own.toml", "[[light]]\nname = 'a'\nkind = 'point'\n[[light]]\nname = 'b'\n[[edges]]\nwidth = 1\n");
+    const auto path = write("main.toml",
+        "include = ['own.toml']\n[[light]]\nname = 'c'\n[[light]]\nname = 'a'\nrange = 2\n[[edges]]\nwidth = 2\n");
+    const Node document = readDocument(path);
+    const auto& lights = document.find("light")->array();
+    ASSERT_EQ(lights.size(), 3U);
+    EXPECT_NE(lights[0].find("kind"), nullptr);
+    EXPECT_NE(lights[0].find("range"), nullptr);
+    EXPECT_EQ(document.find("edges")->array().size(), 1U) << "without names: replaced";
+}
+
 TEST_F(Files, withoutAnEndAreRefused) {
     EXPECT_NE(problem([] { readDocument("/dev/zero"); }).find("is longer than 64 MiB"), std::string::npos);
     EXPECT_NE(problem([] { MappedFile("/dev/zero"); }).find("is a pipe or a device"), std::string::npos);
