@@ -137,8 +137,7 @@ class RenderSettings:
         self.context, self.keep_cages = context, keep_cages
         self.undo = []
         self.cages = {}  # object -> its Subdivision Surface modifier that is written down, not applied, and its level
-        self.keyed = []  # modifiers that keys show and hide
-        self.keyed_objects = []  # objects that keys hide on the screen
+        self.keyed = []  # modifiers that keys show and hide, or subdivide more or less
 
     def set(self, owner, attribute, value):
         old = getattr(owner, attribute)
@@ -158,8 +157,7 @@ class RenderSettings:
         for obj in bpy.data.objects:
             self.set(obj, "hide_viewport", obj.hide_render and not has_keys(obj, "hide_render"))
             self.set(obj, "show_instancer_for_viewport", obj.show_instancer_for_render)
-            if has_keys(obj, "hide_viewport"):
-                self.keyed_objects.append(obj)
+            self.mute_screen(obj)
             if not obj.hide_render and obj.name in view_layer.objects and view_layer.objects[obj.name] == obj:
                 if obj.hide_get():
                     self.undo.append((obj, "hidden", True))
@@ -185,7 +183,7 @@ class RenderSettings:
         enabled = [m for m in obj.modifiers if m.show_render]
         for modifier in obj.modifiers:
             self.set(modifier, "show_viewport", modifier.show_render)
-            if has_keys(obj, modifier.path_from_id("show_render")):
+            if any(has_keys(obj, modifier.path_from_id() + "." + path) for path in ("show_render", "render_levels")):
                 self.keyed.append(modifier)
             if modifier.type in {"SUBSURF", "MULTIRES"}:
                 self.set(modifier, "levels", modifier.render_levels)
@@ -205,10 +203,17 @@ class RenderSettings:
         for modifier in self.keyed:
             if modifier.show_viewport != modifier.show_render:
                 modifier.show_viewport = modifier.show_render
-        for obj in self.keyed_objects:
-            obj.hide_viewport = False
-        if self.keyed or self.keyed_objects:
+            if modifier.type in {"SUBSURF", "MULTIRES"}:
+                modifier.levels = modifier.render_levels
+        if self.keyed:
             self.context.view_layer.update()
+
+    def mute_screen(self, obj):
+        """Keys of what the screen shows say nothing about pictures."""
+        action = obj.animation_data.action if obj.animation_data else None
+        for curve in action.fcurves if action else []:
+            if curve.data_path.split(".")[-1] in {"hide_viewport", "show_viewport", "levels"}:
+                self.set(curve, "mute", True)
 
     def __exit__(self, *exception):
         for owner, attribute, value in reversed(self.undo):
@@ -515,6 +520,8 @@ def image_look(node, lines, left_out, name):
     lines.append('texture_filter = "%s"' % ("nearest" if node.interpolation == "Closest" else "linear"))
     if node.image.colorspace_settings.name not in {"sRGB", "Linear"}:
         left_out.add("image of a colour space other than sRGB", name)
+    if node.image.source in {"SEQUENCE", "MOVIE"}:
+        left_out.add("image sequence or film as a texture (one image of it)", name)
     if node.projection != "FLAT":
         left_out.add("image projected by other than texture coordinates", name)
     source, socket = linked(node.inputs["Vector"])
@@ -683,7 +690,8 @@ class Exporter:
         for instance in depsgraph.object_instances:
             obj = instance.object
             original = obj.original
-            if not instance.show_self or (original.hide_render and not instance.is_instance):
+            carrier = instance.parent.original if instance.is_instance else original
+            if not instance.show_self or original.hide_render or carrier.hide_render:
                 continue
             if obj.type in GEOMETRY and not self.is_for_cameras(instance, original):
                 continue

@@ -9,9 +9,8 @@ SceneFacts sceneFacts(const SceneAt& scene) {
     SceneFacts facts{scene.info, scene.lights, scene.instances, scene.materials};
     facts.lineRecords = scene.lineRecords.size() > 1;
     facts.sections = !scene.sections.empty();
-    facts.marks = facts.sections || std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& one) {
-        return !scene.meshes[static_cast<std::size_t>(one.mesh)]->poly.lines.empty();
-    });
+    facts.marks = facts.sections
+        || std::any_of(scene.instances.begin(), scene.instances.end(), [](const auto& one) { return one.hasLines; });
     facts.hatched = std::any_of(scene.materials.begin(), scene.materials.end(),
         [](const auto& material) { return material.hatch.spacing > 0; });
     for (const auto& instance : scene.instances)

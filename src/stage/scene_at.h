@@ -33,6 +33,7 @@ struct DrawInstance {
     std::span<const std::string> parts;      ///< names of the mesh's parts
     std::vector<std::uint32_t> lineRecords;  ///< parallel to materials: index into SceneAt::lineRecords
     bool hasColors = false;                  ///< the mesh has vertex colours
+    bool hasLines = false;                   ///< the mesh draws lines of its own
     std::uint64_t mostTriangles = 0;         ///< that may be made of the mesh, sections aside
 };
 

@@ -227,6 +227,8 @@ def judge(station, sheet, folder, said):
     if not wrong:
         return "right", words
     told = summary_about(station["code"], said, station.get("named_by"))
+    if not told and len(sheet["stations"]) == 1:  # what is said of the camera
+        told = summary_about("", said, r"\b%s\b" % re.escape(sheet["camera"]))
     return ("named" if told else "SILENT"), "; ".join(wrong[:2]) + (" [said: %s]" % told if told else "")
 
 
