@@ -691,7 +691,9 @@ class Exporter:
             obj = instance.object
             original = obj.original
             carrier = instance.parent.original if instance.is_instance else original
-            if not instance.show_self or original.hide_render or carrier.hide_render:
+            # What nodes make instances of may be hidden itself.
+            by_nodes = instance.is_instance and carrier.instance_type != "COLLECTION"
+            if not instance.show_self or carrier.hide_render or (original.hide_render and not by_nodes):
                 continue
             if obj.type in GEOMETRY and not self.is_for_cameras(instance, original):
                 continue

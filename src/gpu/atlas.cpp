@@ -81,7 +81,7 @@ std::uint64_t bytesOf(const std::map<Files, MipChain>& chains, int maxTextureSiz
             texels = std::max(texels, static_cast<std::uint64_t>(info.width) * static_cast<std::uint64_t>(info.height));
         }
         once = std::max(once, texels * 4 * sizeof(float));
-        const auto most = static_cast<std::uint64_t>(maxTextureSize / 3 * 2);
+        const auto most = static_cast<std::uint64_t>(maxTextureSize) / 3 * 2;
         kept += std::min(texels, most * most) * 4 * 3 / 2;
     }
     return 2 * kept + once;

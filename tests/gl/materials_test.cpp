@@ -268,5 +268,41 @@ TEST(Textures, areSharpOrSmoothAndEndAsTheySay) {
     EXPECT_EQ(at(border, 10, 10), glm::vec3(0, 0, 1));
 }
 
+// Parts of one OBJ have their own place, material and lines through meshes that take some of them.
+TEST(Parts, ofOneFileAreAddressed) {
+    const std::string obj = "o left\n" + quadObj({-3, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {-3, 1, 0}) + "o right wing\n"
+        + quadObj({1, -1, 0}, {3, -1, 0}, {3, 1, 0}, {1, 1, 0});
+    const auto shot = [&](const std::string& scene) {
+        return draw(makeConfig("shading = 'flat'\n[image]\nsize = [80, 40]\nsamples = 1\n[output]\naovs = ['beauty', "
+                               "'object_id']\n"),
+            makeScene(scene + cameraToml({0, 0, 50}, {0, 0, 0}, "orthographic_height = 4"), {{"m.obj", obj}}));
+    };
+    const auto covered = [](const Picture& p, int from, int to) {
+        int count = 0;
+        for (int y = 0; y < 40; ++y)
+            for (int x = from; x < to; ++x) count += *p.aov("object_id").at(x, y) > 0;
+        return count;
+    };
+    const std::string mesh = "[[mesh]]\nname = 'm'\nfile = 'm.obj'\n";
+    const Picture whole = shot(mesh), one = shot(mesh + "parts = ['right*']\n"),
+                  rest = shot(mesh + "without_parts = ['right*']\n");
+    EXPECT_EQ(covered(one, 0, 40), 0);
+    EXPECT_EQ(covered(one, 40, 80), covered(whole, 40, 80));
+    EXPECT_EQ(covered(rest, 40, 80), 0);
+    EXPECT_EQ(covered(rest, 0, 40), covered(whole, 0, 40));
+    const Picture moved = shot(
+        "[[mesh]]\nname = 'a'\nfile = 'm.obj'\nparts = ['left']\n[[mesh]]\nname = 'b'\nfile = "
+        "'m.obj'\nparts = ['right wing']\n[[instance]]\nmesh = 'a'\n[[instance]]\nmesh = "
+        "'b'\nmaterial = 'red'\ntranslate = [0, 1, 0]\n[[material]]\nname = 'red'\ncolor = '#ff0000'\n");
+    EXPECT_EQ(*moved.aov("object_id").at(60, 35), 0) << "moved up";
+    EXPECT_GT(moved.aov("beauty").at(60, 12)[0], 0.99f);
+    EXPECT_LT(moved.aov("beauty").at(60, 12)[1], 0.01f);
+    EXPECT_GT(moved.aov("beauty").at(20, 20)[1], 0.1f) << "the other keeps its own";
+    try {
+        shot(mesh + "parts = ['rigth*']\n");
+        ADD_FAILURE() << "no part is called so";
+    } catch (const Errors& errors) { EXPECT_NE(errors.list.front().message.find("no part of"), std::string::npos); }
+}
+
 }  // namespace
 }  // namespace limn::test
