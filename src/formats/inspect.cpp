@@ -1,6 +1,7 @@
 #include "formats/inspect.h"
 
 #include "base/text.h"
+#include "mesh/coincident.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,6 +32,8 @@ MeshFacts inspectMesh(const std::filesystem::path& path) {
     for (const auto v : mesh.cornerPosition) facts.bounds.add(mesh.positions[v]);
     for (const auto& one : mesh.lines) facts.bounds.add(one.a), facts.bounds.add(one.b);
     facts.topology = analyseTopology(mesh);
+    const TriMesh triangles = buildTriMesh(mesh, {});
+    facts.covered = countCovered({triangles.positions, triangles.indices});
     facts.warnings = std::move(file.warnings);
     const SubdivisionOptions options = withTags({}, mesh.tags);
     facts.subdivision = describe(options, "", planSubdivision(mesh, options));
@@ -56,8 +59,8 @@ std::string meshFactsText(const MeshFacts& f) {
     line("pieces", fmt::format("{}", t.components));
     line("trouble",
         fmt::format("{} non-manifold edges, {} non-manifold vertices, {} edges that cannot be wound alike, {} faces "
-                    "without area, {} interior vertices with two faces",
-            t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo));
+                    "without area, {} interior vertices with two faces, {} triangles that lie on others",
+            t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo, f.covered));
     const glm::dvec3 size = f.bounds.hi - f.bounds.lo;
     line("materials", fmt::format("{}", fmt::join(f.materials, ", ")));
     line("parts", f.parts.size() > 8 ? fmt::format("{}", f.parts.size()) : fmt::format("{}", fmt::join(f.parts, ", ")));
@@ -98,16 +101,17 @@ std::string meshFactsJson(const MeshFacts& f) {
         "\"vertices\": {}, \"unused_vertices\": {}, \"uvs\": {}, \"normals\": {}, \"lines\": {},\n"
         " \"edges\": {}, \"boundary_edges\": {}, \"boundary_loops\": {}, \"feature_edges\": {}, \"components\": {}, "
         "\"non_manifold_edges\": {}, \"non_manifold_vertices\": {}, \"unorientable_edges\": {},\n"
-        " \"degenerate_faces\": {}, \"interior_valence_two\": {}, \"creases\": {}, \"infinite_creases\": {}, "
+        " \"degenerate_faces\": {}, \"interior_valence_two\": {}, \"covered_triangles\": {}, \"creases\": {}, "
+        "\"infinite_creases\": {}, "
         "\"corners\": {}, \"holes\": {},\n"
         " \"low\": [{}, {}, {}], \"high\": [{}, {}, {}], \"materials\": {}, \"parts\": {}, \"subdivision\": {}, "
         "\"warnings\": [{}]}}",
         jsonText(f.file), f.faces, f.triangles, f.quads, f.largerFaces, t.largestFace, t.vertices, t.unusedVertices,
         f.uvs, f.normals, f.lines, t.edges, t.boundaryEdges, t.boundaryLoops, t.featureEdges, t.components,
-        t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo, f.creases,
-        f.infiniteCreases, f.corners, f.holes, number(f.bounds.lo.x), number(f.bounds.lo.y), number(f.bounds.lo.z),
-        number(f.bounds.hi.x), number(f.bounds.hi.y), number(f.bounds.hi.z), names(f.materials), names(f.parts),
-        jsonText(f.subdivision), fmt::join(warnings, ", "));
+        t.nonManifoldEdges, t.nonManifoldVertices, t.unorientable, t.degenerateFaces, t.valenceTwo, f.covered,
+        f.creases, f.infiniteCreases, f.corners, f.holes, number(f.bounds.lo.x), number(f.bounds.lo.y),
+        number(f.bounds.lo.z), number(f.bounds.hi.x), number(f.bounds.hi.y), number(f.bounds.hi.z), names(f.materials),
+        names(f.parts), jsonText(f.subdivision), fmt::join(warnings, ", "));
 }
 
 }  // namespace limn

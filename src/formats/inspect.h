@@ -14,6 +14,7 @@ struct MeshFacts {
     std::size_t creases = 0, infiniteCreases = 0, corners = 0, holes = 0;
     Bounds bounds;
     TopologyReport topology;
+    std::size_t covered = 0;            ///< triangles that lie on earlier ones in the same plane
     std::vector<MeshWarning> warnings;  ///< in the order of lines; those of repairs have no line
     std::string subdivision;            ///< what Catmull-Clark at level 2 would do
 };

@@ -85,6 +85,13 @@ void Buffer::copyFrom(const Buffer& other, std::size_t bytes) {
     if (bytes > 0) glCopyNamedBufferSubData(other.id(), id(), 0, 0, static_cast<GLsizeiptr>(bytes));
 }
 
+std::vector<std::byte> Buffer::read(std::size_t offset, std::size_t bytes) const {
+    std::vector<std::byte> data(bytes);
+    if (bytes > 0)
+        glGetNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data.data());
+    return data;
+}
+
 void Buffer::bindUniform(int binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id()); }
 
 BufferView::BufferView(const Buffer& buffer, Element element, const std::string& name) {
@@ -309,6 +316,16 @@ void drawElements(const Buffer& commands, int count) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));
 }
+PulledForward::PulledForward(float pixels, float roundings, bool facing) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(pixels, roundings);  // nearer depths are larger
+    if (facing) glEnable(GL_CULL_FACE);
+}
+PulledForward::~PulledForward() {
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_CULL_FACE);
+}
+
 Scissor::Scissor(glm::ivec2 origin, glm::ivec2 size) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(origin.x, origin.y, size.x, size.y);

@@ -58,6 +58,7 @@ public:
     void write(std::span<const std::byte> data, std::size_t offset = 0);
     /// The first bytes of another buffer, moved without leaving the device.
     void copyFrom(const Buffer& other, std::size_t bytes);
+    std::vector<std::byte> read(std::size_t offset, std::size_t bytes) const;
     void bindUniform(int binding) const;
     std::size_t size() const { return size_; }
     Id id() const { return handle_.get(); }
@@ -208,6 +209,16 @@ struct DrawCommand {
 };
 
 enum class DepthTest { none, greater };
+
+/// Moves what is drawn towards the eye while this lives: by how much its depth changes over `pixels`, and by
+/// `roundings` of the depth buffer. `facing`: leaves out what does not face the eye.
+class PulledForward {
+public:
+    PulledForward(float pixels, float roundings, bool facing);
+    ~PulledForward();
+    PulledForward(const PulledForward&) = delete;
+    PulledForward& operator=(const PulledForward&) = delete;
+};
 
 /// Drawing touches nothing outside a rectangle while this lives.
 class Scissor {

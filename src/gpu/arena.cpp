@@ -51,6 +51,10 @@ void Arena::write(const ArenaPiece& piece, std::span<const std::byte> bytes) {
     buffer_.write(bytes, piece.first * stride_);
 }
 
+std::vector<std::byte> Arena::read(const ArenaPiece& piece) const {
+    return buffer_.read(piece.first * stride_, piece.count * stride_);
+}
+
 void Arena::drop(const ArenaPiece& piece) {
     if (piece.count == 0) return;
     const auto at = free_.emplace(piece.first, piece.count).first;

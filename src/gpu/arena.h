@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace limn {
 
@@ -25,6 +26,7 @@ public:
     /// A piece with these bytes. Throws Error (outOfMemory) where the device takes no more elements.
     ArenaPiece put(std::span<const std::byte> bytes);
     void write(const ArenaPiece& piece, std::span<const std::byte> bytes);  ///< of a piece's own size
+    std::vector<std::byte> read(const ArenaPiece& piece) const;
     void drop(const ArenaPiece& piece);
 
     const gl::Buffer& buffer() const { return buffer_; }

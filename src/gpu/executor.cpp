@@ -232,10 +232,14 @@ void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl:
         const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
         what();
     };
-    if (!depth || !scene.isCullable()) return draw([&] { scene.draw(); });
-    draw([&] { scene.drawSeen(nullptr); });
-    const FarthestDepths farthest = farthestDepths(*depth);
-    draw([&] { scene.drawSeen(&farthest); });
+    if (!depth || !scene.isCullable()) {
+        draw([&] { scene.draw(); });
+    } else {
+        draw([&] { scene.drawSeen(nullptr); });
+        const FarthestDepths farthest = farthestDepths(*depth);
+        draw([&] { scene.drawSeen(&farthest); });
+    }
+    if (depth) draw([&] { scene.drawCoincident(); });
 }
 
 FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {

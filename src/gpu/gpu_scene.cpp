@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -164,6 +165,8 @@ void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     tables_ = {};
     tableWords_.clear();
     generations_.clear();
+    coincident_.clear();
+    coincidentKey_ = {};
     if (has(needs, SceneData::positions)) words_.put(bytesOf(std::vector<std::uint32_t>(recordWords)));
 }
 
@@ -303,6 +306,36 @@ void GpuScene::putMarks(const SceneAt& scene) {
     }
 }
 
+void GpuScene::putCoincident(const SceneAt& scene, std::span<const ContentKey> meshOf) {
+    KeyBuilder key;
+    std::vector<std::uint32_t> instances;
+    for (std::uint32_t i = 0; i < shown_.size(); ++i) {
+        if (scene.instances[i].isSubdivided || shown_[i]->place.triangleCount == 0) continue;
+        const glm::dmat4& world = scene.instances[i].worldFromMesh;
+        key.add(i).add(meshOf[i].low).add(meshOf[i].high).bytes(&world, sizeof world);
+        instances.push_back(i);
+    }
+    if (key.key() == coincidentKey_) return;
+    coincidentKey_ = key.key();
+    std::map<const Resident*, std::pair<std::vector<std::byte>, std::vector<std::byte>>> read;
+    std::vector<PlacedTriangles> meshes;
+    std::vector<std::int32_t> firstVertices;
+    for (const auto i : instances) {
+        const Resident& mesh = *shown_[i];
+        const auto [it, isNew] = read.try_emplace(&mesh);
+        auto& [points, corners] = it->second;
+        if (isNew) {
+            points = positions_.read(mesh.positions);
+            corners = triangles_.read(mesh.triangles);
+        }
+        meshes.push_back({{reinterpret_cast<const glm::vec3*>(points.data()), mesh.positions.count},
+            {reinterpret_cast<const std::uint32_t*>(corners.data()), 3 * std::size_t{mesh.triangles.count}},
+            glm::translate(scene.instances[i].worldFromMesh, mesh.place.pivot)});
+        firstVertices.push_back(static_cast<std::int32_t>(mesh.place.firstVertex));
+    }
+    coincident_.find(meshes, instances, firstVertices);
+}
+
 void GpuScene::connect() {
     const std::vector<int> generations{positions_.generation(), triangles_.generation(), normals_.generation(),
         triangleNormals_.generation(), uvs_.generation(), triangleUvs_.generation(), words_.generation()};
@@ -340,6 +373,7 @@ void GpuScene::update(
     putTables(scene);
     putCommands();
     if (has(needs_, SceneData::marks)) putMarks(scene);
+    if (has(needs_, SceneData::coincidence)) putCoincident(scene, meshOf);
     connect();
     if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
     if (has(needs_, SceneData::materials)) putMaterials(scene);

@@ -5,6 +5,7 @@
 #include "gl/objects.h"
 #include "gpu/arena.h"
 #include "gpu/atlas.h"
+#include "gpu/coincident_faces.h"
 #include "gpu/culling.h"
 #include "graph/graph.h"
 #include "picture/view.h"
@@ -45,6 +46,8 @@ public:
     /// Draws the visible triangles in the last view's region: those that face the camera, or then, with `farthest`, the
     /// others (gpu/culling.h).
     void drawSeen(const FarthestDepths* farthest);
+    /// Draws the faces again that must be visible before others in the same plane; in place after all others.
+    void drawCoincident() const { coincident_.draw(inputs_); }
 
 private:
     struct MeshPlace {
@@ -69,6 +72,7 @@ private:
     void putMaterials(const SceneAt& scene);
     void putCommands();
     void putMarks(const SceneAt& scene);
+    void putCoincident(const SceneAt& scene, std::span<const ContentKey> meshOf);
     /// Connects new buffers to shaders and vertex pipelines.
     void connect();
     void placeMeshes(const SceneAt& scene, const View& view);
@@ -97,6 +101,8 @@ private:
     CullView cullView_;
     std::vector<SeenPart> parts_;
     std::vector<Mark> marks_;
+    CoincidentFaces coincident_;
+    ContentKey coincidentKey_;  ///< of the meshes and places that they were found among
 };
 
 }  // namespace limn

@@ -47,7 +47,8 @@ enum class SceneData : unsigned {
     unifiedVertices = 64,
     rays = 128,
     colors = 256,
-    marks = 512
+    marks = 512,
+    coincidence = 1024
 };
 constexpr SceneData operator|(SceneData a, SceneData b) {
     return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

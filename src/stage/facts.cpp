@@ -11,6 +11,8 @@ SceneFacts sceneFacts(const SceneAt& scene) {
     facts.sections = !scene.sections.empty();
     facts.marks = facts.sections
         || std::any_of(scene.instances.begin(), scene.instances.end(), [](const auto& one) { return one.hasLines; });
+    facts.polygons = std::any_of(scene.instances.begin(), scene.instances.end(),
+        [](const auto& one) { return one.mostTriangles > 1 && !one.isSubdivided; });
     facts.hatched = std::any_of(scene.materials.begin(), scene.materials.end(),
         [](const auto& material) { return material.hatch.spacing > 0; });
     for (const auto& instance : scene.instances)

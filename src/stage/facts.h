@@ -19,6 +19,7 @@ struct SceneFacts {
     bool shiny = false;         ///< some drawn material has a highlight
     bool coloredLight = false;  ///< some light is not grey
     bool lineRecords = false;   ///< some object or material says something about its lines
+    bool polygons = false;      ///< some drawn mesh is not subdivided: faces may lie in one plane
     bool sections = false;      ///< something is cut open
     bool marks = false;         ///< some mesh draws lines of its own, or may leave some where it is cut open
     bool hatched = false;       ///< and its cut faces are hatched

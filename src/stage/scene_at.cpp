@@ -141,7 +141,8 @@ void placeInstances(const Scene& scene, CutMaterials& cuts, MaterialTable& mater
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = at.meshes[mesh]->poly;
         DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name,
-            poly.partNames, {}, !poly.colors.empty(), !poly.lines.empty(), mostTriangles(scene.meshes[mesh], poly)};
+            poly.partNames, {}, !poly.colors.empty(), !poly.lines.empty(), scene.meshes[mesh].subdivision.present,
+            mostTriangles(scene.meshes[mesh], poly)};
         for (const auto& name : poly.materialNames)
             placed.materials.push_back(
                 instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));

@@ -34,6 +34,7 @@ struct DrawInstance {
     std::vector<std::uint32_t> lineRecords;  ///< parallel to materials: index into SceneAt::lineRecords
     bool hasColors = false;                  ///< the mesh has vertex colours
     bool hasLines = false;                   ///< the mesh draws lines of its own
+    bool isSubdivided = false;               ///< the mesh is a cage
     std::uint64_t mostTriangles = 0;         ///< that may be made of the mesh, sections aside
 };
 

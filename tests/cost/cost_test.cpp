@@ -34,11 +34,11 @@ void resolveEntryPoints() {
     static_cast<void>(resolved);
 }
 
-Drawn run(const std::string& config, const std::string& scene = kScene) {
+Drawn run(const std::string& config, const std::string& scene = kScene, const std::string& mesh = mixedObj()) {
     resolveEntryPoints();
     // A renderer of its own: nothing is left over from another picture.
     Renderer fresh{gl::DeviceOptions{}};
-    const LoadedScene loaded = makeScene(scene, {{"m.obj", mixedObj()}});
+    const LoadedScene loaded = makeScene(scene, {{"m.obj", mesh}});
     const RenderConfig parsed = makeConfig(kBase + config);
     const Counting counting;
     const RenderedFrame frame = fresh.render(parsed, loaded, 1, {});
@@ -99,7 +99,15 @@ TEST(Cost, attributesThatNobodyReadsAreNotUploaded) {
                 depth = run("[output]\naovs = ['depth']\n");
     EXPECT_GT(toon.counts.bufferBytes, flat.counts.bufferBytes);
     EXPECT_GT(flat.counts.bufferBytes, depth.counts.bufferBytes);
-    EXPECT_EQ(depth.counts.draws + depth.counts.dispatches, 2) << "visibility and resolve, once";
+    EXPECT_EQ(depth.counts.draws + depth.counts.dispatches, 3) << "visibility, the boxes' places on the floor, resolve";
+}
+
+TEST(Cost, aSceneWithoutCoincidentFacesDrawsNothingTwice) {
+    const Drawn one = run("[output]\naovs = ['depth']\n", kScene, sphereObj(1, 12));
+    EXPECT_EQ(one.counts.draws + one.counts.dispatches, 2) << "visibility and resolve, once";
+    const Drawn two = run("[output]\naovs = ['depth']\n",
+        kScene + "[[instance]]\nmesh = 'm'\n[[instance]]\nmesh = 'm'\n", sphereObj(1, 12));
+    EXPECT_EQ(two.counts.draws + two.counts.dispatches, 3) << "and what must be seen of two in one place";
 }
 
 TEST(Cost, highlightsAreComputedWhereSomeMaterialHasThem) {

@@ -203,6 +203,24 @@ def far_from_the_origin_16():
 
 
 @report
+def one_plane_09():
+    here = folder("09")
+    # Each has two objects in one plane; where they overlap there is one colour, and no line inside.
+    for name in ("wall", "double", "twosided_same_order", "twosided_turned"):
+        picture, _ = draw(here + "/%s.toml" % name)
+        front, _ = draw(here + "/%s.toml" % name, "--set", "edges.0.objects=0")
+        assert picture.samples == front.samples, name + ": lines between objects"
+    slab, _ = draw(here + "/draw.toml")
+    alone, _ = draw(here + "/draw.toml", "--set", "edges.0.objects=0", "--set", "edges.0.creases=0")
+    inside = [(x, y) for x in range(300, 600, 3) for y in range(200, 300, 3)]
+    assert {slab.at(x, y) for x, y in inside} == {slab.at(300, 150)}, "the slab's top has one colour"
+    assert alone.covered() == slab.covered()
+    for name in ("wall", "twosided_turned"):  # of double.obj they share their vertices, and are dropped
+        _, facts = run("mesh", here + "/%s.obj" % name)
+        assert ", 0 triangles that lie on others" not in facts, facts
+
+
+@report
 def smooth_balls_12():
     picture, _ = draw(folder("12") + "/draw.toml")
     # The first three are smooth: nothing as dark as a line well inside them.

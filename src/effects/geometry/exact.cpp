@@ -20,6 +20,7 @@ void build(EffectBuilder& graph, const NoParams&) {
     raster.rate = graph.view().sampling.subFrames;
     raster.writes = {{"visibility", visibility}, {"zBuffer", zBuffer}};
     raster.needs = SceneData::positions;
+    if (graph.scene().polygons) raster.needs = raster.needs | SceneData::coincidence;
     raster.note = "triangle ids only";
     graph.cutHoles(raster);
     graph.defineSeen(raster);
