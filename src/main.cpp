@@ -3,6 +3,7 @@
 #include "base/heap.h"
 #include "base/install.h"
 #include "base/log.h"
+#include "base/signals.h"
 #include "cli/commands.h"
 
 #include <fmt/format.h>
@@ -32,6 +33,7 @@ ExitCode report(const limn::Error& error) {
 int main(int argc, char** argv) {
     using namespace limn;
     keepFreedMemory();
+    endCleanlyOnSignals();
     // Files that grow past the limit must give an error that we report, not a signal that kills us.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);

@@ -224,30 +224,79 @@ static std::filesystem::path makeFolderOf(const std::filesystem::path& path) {
     return folder;
 }
 
-void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    const auto folder = makeFolderOf(path);
+/// The temporaries that are there. Whoever holds the lock keeps the process from making and renaming any.
+struct Temporaries {
+    std::mutex mutex;
+    std::set<std::string> paths;
+};
+static Temporaries& temporaries() {
+    static auto* const list = new Temporaries;  // outlives every thread
+    return *list;
+}
+
+static void dropTemporary(const std::string& path) {
+    const std::lock_guard lock(temporaries().mutex);
+    if (temporaries().paths.erase(path) > 0) ::unlink(path.c_str());
+}
+
+PendingFile::PendingFile(std::filesystem::path path, std::span<const std::byte> bytes) : path_(std::move(path)) {
+    const auto folder = makeFolderOf(path_);
     sweepTemporaries(folder);
-    auto temporary = (folder / (temporaryPrefix() + "XXXXXX")).string();
-    Descriptor fd(::mkostemp(temporary.data(), O_CLOEXEC));
-    if (fd < 0) throw writeError(path, errno, "creating");
+    std::string temporary = (folder / (temporaryPrefix() + "XXXXXX")).string();
+    const auto make = [&] {
+        const std::lock_guard lock(temporaries().mutex);
+        const int made = ::mkostemp(temporary.data(), O_CLOEXEC);
+        if (made >= 0) temporaries().paths.insert(temporary);
+        return made;
+    };
+    Descriptor fd(make());
+    if (fd < 0) throw writeError(path_, errno, "creating");
     try {
-        if (::fchmod(fd, 0644) != 0) throw writeError(path, errno, "creating");
-        writeAll(fd, bytes, path);
-        if (::fsync(fd) != 0) throw writeError(path, errno, "writing");
-        compareWith(fd, bytes, path);
-        if (fd.close() != 0) throw writeError(path, errno, "writing");
-        if (::rename(temporary.c_str(), path.c_str()) != 0) throw writeError(path, errno, "renaming");
+        if (::fchmod(fd, 0644) != 0) throw writeError(path_, errno, "creating");
+        writeAll(fd, bytes, path_);
+        if (::fsync(fd) != 0) throw writeError(path_, errno, "writing");
+        compareWith(fd, bytes, path_);
+        if (fd.close() != 0) throw writeError(path_, errno, "writing");
     } catch (...) {
-        ::unlink(temporary.c_str());
+        dropTemporary(temporary);
         throw;
     }
+    temporary_ = std::move(temporary);
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})) {}
+
+PendingFile::~PendingFile() {
+    if (!temporary_.empty()) dropTemporary(temporary_);
+}
+
+void PendingFile::commit() {
+    {
+        const std::lock_guard lock(temporaries().mutex);
+        if (::rename(temporary_.c_str(), path_.c_str()) != 0) throw writeError(path_, errno, "renaming");
+        temporaries().paths.erase(temporary_);
+    }
+    temporary_.clear();
     // The rename itself must survive a power cut; a file system that cannot sync folders has nothing better to offer.
+    const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
     const Descriptor folderFd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folderFd >= 0) ::fsync(folderFd);
 }
 
+void abandonPendingFiles() {
+    temporaries().mutex.lock();  // for good
+    for (const auto& path : temporaries().paths) ::unlink(path.c_str());
+}
+
+void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    PendingFile(path, bytes).commit();
+}
+
 void requireWritable(const std::filesystem::path& path) {
-    if (::access(makeFolderOf(path).c_str(), W_OK | X_OK) != 0) throw writeError(path, errno, "creating");
+    const auto folder = makeFolderOf(path);
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) throw writeError(path, errno, "creating");
+    sweepTemporaries(folder);
 }
 
 void replaceFile(const std::filesystem::path& path, std::string_view text) {

@@ -36,14 +36,35 @@ inline constexpr std::size_t kLongestText = std::size_t{64} << 20;
 /// Throws Error when the file is missing, a folder, longer than kLongestText, or cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
+/// New content of a file, whole on disk beside it under a temporary name: written, synced, read back and compared.
+/// Gone again unless committed. Makes missing folders. Removes the temporaries of processes that are no more: this
+/// machine's at once, others' after a day.
+class PendingFile {
+public:
+    /// Throws Error: 73 cannot create, 74 I/O or disk full, 77 permission.
+    PendingFile(std::filesystem::path path, std::span<const std::byte> bytes);
+    ~PendingFile();
+    PendingFile(PendingFile&& other) noexcept;
+    PendingFile& operator=(PendingFile&&) = delete;
+
+    /// Takes the file's place. Throws Error.
+    void commit();
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    std::string temporary_;  ///< empty: nothing is there
+};
+
+/// Removes this process's temporaries and keeps it from making or renaming any more: for those who are about to end it.
+void abandonPendingFiles();
+
 /// Replaces `path` by `bytes`, or leaves everything as it was. Writes a temporary in the same folder, notices short
-/// writes, syncs, reads back, compares, renames, and syncs the folder. Makes missing folders. Removes the temporaries
-/// of processes that are no more: this machine's at once, others' after a day. Throws Error: 73 cannot create, 74 I/O
-/// or disk full, 77 permission.
+/// writes, syncs, reads back, compares, renames, and syncs the folder. Throws what PendingFile throws.
 void replaceFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void replaceFile(const std::filesystem::path& path, std::string_view text);
 
-/// Throws Error where replaceFile could not even begin. Makes missing folders.
+/// Throws Error where replaceFile could not even begin. Makes missing folders, and sweeps as PendingFile does.
 void requireWritable(const std::filesystem::path& path);
 
 /// "room_####.exr" at 7 → "room_0007.exr".

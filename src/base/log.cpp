@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -24,6 +25,21 @@ spdlog::logger& logger() {
     return *instance;
 }
 
+/// What is said at a time, and the line that stays below it.
+struct Voice {
+    std::mutex mutex;
+    std::string status;
+};
+Voice& voice() {
+    static auto* const instance = new Voice;  // outlives every thread
+    return *instance;
+}
+
+void show(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
 spdlog::level::level_enum toSpdlog(Level level) {
     switch (level) {
         case Level::debug: return spdlog::level::debug;
@@ -40,11 +56,28 @@ void configure(Level lowest) { logger().set_level(toSpdlog(lowest)); }
 
 void write(Level level, std::string_view message) {
     // Pattern and message belong together, whichever thread speaks.
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(voice().mutex);
+    const bool shown = !voice().status.empty();
+    if (shown) show("\r\033[K");
     // Information is the normal voice and needs no prefix.
     logger().set_pattern(level == Level::info ? "%v" : "%^%l%$: %v");
     logger().log(toSpdlog(level), message);
+    if (shown) show(voice().status);
+}
+
+bool showsStatus() {
+    static const bool shows = [] {
+        const char* const terminal = std::getenv("TERM");
+        return isatty(STDERR_FILENO) != 0 && terminal && std::string_view(terminal) != "dumb";
+    }();
+    return shows && logger().should_log(spdlog::level::info);
+}
+
+void status(const std::string& line) {
+    const std::lock_guard lock(voice().mutex);
+    if (line.empty() && voice().status.empty()) return;
+    show("\r\033[K" + line);
+    voice().status = line;
 }
 
 }  // namespace limn::log

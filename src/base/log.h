@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
 
 namespace limn::log {
@@ -14,6 +15,11 @@ enum class Level { debug, info, warning, error };
 /// Lowest level that is shown; colour only on a terminal, and never when NO_COLOR is set.
 void configure(Level lowest);
 void write(Level level, std::string_view message);
+
+/// Can a line be shown that is replaced again and again: is standard error a terminal that takes it?
+bool showsStatus();
+/// Replaces the line below all messages; an empty text removes it. Only where showsStatus().
+void status(const std::string& line);
 
 template <class... Args>
 void debug(fmt::format_string<Args...> text, Args&&... args) {

@@ -8,6 +8,7 @@
 #include <sched.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 
@@ -93,6 +94,26 @@ void addRender(CLI::App& app, Chosen& chosen) {
         ->type_name("N")
         ->check(CLI::Range(0, 10));
     addUpOption(*command, options->overrides.meshFile);
+    command
+        ->add_option("--chunk", options->chunk,
+            "Draw the I-th of N equal parts of the frames, I from 1: for farms that count their tasks")
+        ->type_name("I/N");
+    command->add_flag("--resume", options->resume, "Keep frames whose files are complete and current; draw the others");
+    command
+        ->add_option("--frame-timeout", options->frameTimeout,
+            "A frame that takes longer than this many seconds has failed (75)")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option_function<std::string>(
+            "--progress",
+            [options](const std::string& form) {
+                options->progress = static_cast<ProgressForm>(
+                    std::find(kProgressForms.begin(), kProgressForms.end(), form) - kProgressForms.begin());
+            },
+            "How progress is said: plain, or a farm's lines: alf (Tractor), openjd (Open Job Description)")
+        ->type_name("FORM")
+        ->check(CLI::IsMember(std::vector<std::string>(kProgressForms.begin(), kProgressForms.end())));
     command->add_option("--crop", options->crop, "Write only this part, in pixels from the upper left")
         ->type_name("X,Y,W,H");
     command->add_option("--threads", *threads, "CPU threads; without it what the farm or the machine grants")
@@ -101,7 +122,10 @@ void addRender(CLI::App& app, Chosen& chosen) {
     addMemoryOption(*command);
     command->add_flag("--keep-going", options->keepGoing, "Draw the other frames when one fails (exit code 1)");
     command->add_flag("--strict", options->strict, "Fail when a value in the picture is not a finite number");
-    command->add_option("--stats", options->stats, "Write the times of each part to this JSON file")->type_name("FILE");
+    command
+        ->add_option(
+            "--stats", options->stats, "Write a report of the run to this JSON file: outcome and times of each frame")
+        ->type_name("FILE");
     addDeviceFlags(*command, options->session);
     command->callback([options, threads, &chosen] { chosen = [options, threads] { return run(*options, *threads); }; });
 }

@@ -147,6 +147,12 @@ bool putChanged(gl::Buffer& buffer, std::vector<std::byte>& known, std::span<con
 
 GpuScene::GpuScene(const gl::Limits& limits, bool isSoftware) : limits_(limits), isSoftware_(isSoftware) {}
 
+std::set<ContentKey> GpuScene::residents() const {
+    std::set<ContentKey> keys;
+    for (const auto& [key, resident] : residents_) keys.insert(key);
+    return keys;
+}
+
 void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     const std::size_t recordWords = lineRecords * lineRecordWords({}).size();
     if (isReady_ && needs == needs_ && recordWords <= records_.count) return;

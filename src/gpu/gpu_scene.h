@@ -12,6 +12,7 @@
 #include "stage/scene_at.h"
 
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ public:
     /// Declares the data to be read of the next scenes, and the number of their line records. A change drops all that
     /// is held.
     void require(SceneData needs, std::size_t lineRecords);
+    std::set<ContentKey> residents() const;
     bool holds(const ContentKey& mesh) const { return residents_.contains(mesh); }
 
     /// Uploads the differences from the last scene. `meshOf`: the content key of each instance's mesh. Meshes that are

@@ -15,6 +15,7 @@ struct ImageModule {
     std::unique_ptr<ImageEncoder> (*openTiff)(const Layer&, int height, const Metadata&, const EncodeOptions&);
     Image (*read)(const std::filesystem::path&);
     ImageInfo (*readInfo)(const std::filesystem::path&);
+    std::optional<Metadata> (*readWhole)(const std::filesystem::path&);
 };
 
 /// Loads the module on first use. Throws Error (internal) when it is not beside the program.

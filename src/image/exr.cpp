@@ -1,5 +1,6 @@
 #include "base/content_key.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "image/image.h"
 
 #include <ImfChannelList.h>
@@ -190,7 +191,42 @@ std::unique_ptr<ImageEncoder> openExr(
     return std::make_unique<ExrEncoder>(layers, height, metadata);
 }
 
-const ImageFormat kExr{{".exr"}, "linear floating point, every AOV in one file", {.isMultiLayer = true}, openExr};
+/// Decodes all pixels, some rows at a time; throws what the library throws.
+void decodeAll(Imf::InputFile& file) {
+    constexpr int kRows = 64;
+    const auto& window = file.header().dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    std::vector<char> values(width * kRows * sizeof(float));  // one channel after the other, over the last
+    for (int y = window.min.y; y <= window.max.y; y += kRows) {
+        Imf::FrameBuffer frame;
+        const auto& channels = file.header().channels();
+        for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+            const std::size_t size = channel.channel().type == Imf::HALF ? sizeof(half) : sizeof(float);
+            char* const base = values.data()
+                - (static_cast<std::ptrdiff_t>(width) * y + window.min.x) * static_cast<std::ptrdiff_t>(size);
+            frame.insert(channel.name(), Imf::Slice(channel.channel().type, base, size, width * size));
+        }
+        file.setFrameBuffer(frame);
+        file.readPixels(y, std::min(y + kRows - 1, window.max.y));
+    }
+}
+
+std::optional<Metadata> readWholeExr(const std::filesystem::path& path) {
+    const MappedFile mapped(path);
+    try {
+        MemoryInput stream(std::as_bytes(std::span(mapped.text())));
+        Imf::InputFile file(stream, threads());
+        Metadata texts;
+        for (auto one = file.header().begin(); one != file.header().end(); ++one)
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&one.attribute()))
+                texts.emplace_back(one.name(), text->value());
+        decodeAll(file);
+        return texts;
+    } catch (const std::exception&) { return std::nullopt; }
+}
+
+const ImageFormat kExr{
+    {".exr"}, "linear floating point, every AOV in one file", {.isMultiLayer = true}, openExr, readWholeExr};
 
 }  // namespace
 }  // namespace limn

@@ -128,8 +128,9 @@ std::vector<const ImageFormat*>& registry() {
 
 }  // namespace
 
-ImageFormat::ImageFormat(std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_)
-    : extensions(std::move(extensions_)), doc(doc_), traits(traits_), open(open_) {
+ImageFormat::ImageFormat(
+    std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_, ReadWhole readWhole_)
+    : extensions(std::move(extensions_)), doc(doc_), traits(traits_), open(open_), readWhole(readWhole_) {
     const auto before = [](auto* a, auto* b) { return a->extensions.front() < b->extensions.front(); };
     registry().insert(std::upper_bound(registry().begin(), registry().end(), this, before), this);
 }
@@ -163,5 +164,10 @@ std::vector<std::byte> encodeImage(
 Image readImage(const std::filesystem::path& path) { return imageModule().read(path); }
 
 ImageInfo readImageInfo(const std::filesystem::path& path) { return imageModule().readInfo(path); }
+
+std::optional<Metadata> readWholePicture(const std::filesystem::path& path) {
+    const ImageFormat* format = imageFormat(path);
+    return format && format->readWhole ? format->readWhole(path) : imageModule().readWhole(path);
+}
 
 }  // namespace limn

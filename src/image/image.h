@@ -76,12 +76,17 @@ struct ImageFormat {
     using Open = std::unique_ptr<ImageEncoder> (*)(
         std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options);
 
+    /// See readWholePicture().
+    using ReadWhole = std::optional<Metadata> (*)(const std::filesystem::path& path);
+
     std::vector<std::string_view> extensions;  ///< in lower case, the usual one first
     std::string_view doc;
     Traits traits;
     Open open;
+    ReadWhole readWhole;  ///< null: the image library reads it
 
-    ImageFormat(std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_);
+    ImageFormat(std::vector<std::string_view> extensions_, std::string_view doc_, Traits traits_, Open open_,
+        ReadWhole readWhole_ = nullptr);
     ImageFormat(const ImageFormat&) = delete;
     ImageFormat& operator=(const ImageFormat&) = delete;
 };
@@ -108,6 +113,10 @@ inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 /// Reads any format the image library knows, as linear floats with unassociated alpha; throws Error.
 Image readImage(const std::filesystem::path& path);
+
+/// What a picture file says about itself, if every pixel of it can be decoded; nullopt for a missing, cut or damaged
+/// one. Texts of JPEG and TIFF are in the lines "NAME: VALUE" of their description.
+std::optional<Metadata> readWholePicture(const std::filesystem::path& path);
 
 /// Loads the image library's module in the background, for those who will need it soon.
 void preloadImageLibrary();

@@ -11,8 +11,11 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <fstream>
 #include <optional>
+#include <sstream>
 
 namespace limn {
 namespace {
@@ -225,7 +228,58 @@ Image read(const std::filesystem::path& path) {
     return image;
 }
 
+/// JPEG readers make up what is missing: the end of the file must be there.
+bool endsAsJpeg(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 2> end{};
+    return file.seekg(-2, std::ios::end) && file.read(end.data(), 2) && end[0] == '\xff' && end[1] == '\xd9';
+}
+
+/// TIFF readers do without the last bytes of a strip: all of each must be there.
+bool endsAsTiff(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const std::uint64_t size = std::filesystem::file_size(path, unknown);
+    const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(TIFFOpen(path.c_str(), "rm"), [](TIFF* open) {
+        if (open) TIFFClose(open);
+    });
+    if (!tiff || unknown) return false;
+    for (std::uint32_t strip = 0; strip < TIFFNumberOfStrips(tiff.get()); ++strip)
+        if (TIFFGetStrileOffset(tiff.get(), strip) + TIFFGetStrileByteCount(tiff.get(), strip) > size) return false;
+    return true;
+}
+
+std::optional<Metadata> readWhole(const std::filesystem::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) {
+        static_cast<void>(OIIO::geterror());  // forgets it
+        return std::nullopt;
+    }
+    const auto& spec = input->spec();
+    constexpr int kRows = 64;
+    std::vector<std::byte> samples(spec.scanline_bytes(true) * kRows);
+    for (int y = spec.y; y < spec.y + spec.height; y += kRows)
+        if (!input->read_scanlines(0, 0, y, std::min(y + kRows, spec.y + spec.height), 0, 0, spec.nchannels,
+                OIIO::TypeUnknown, samples.data())) {
+            static_cast<void>(input->geterror());
+            return std::nullopt;
+        }
+    const std::string_view format = input->format_name();
+    if ((format == "jpeg" && !endsAsJpeg(path)) || (format == "tiff" && !endsAsTiff(path))) return std::nullopt;
+    Metadata texts;
+    for (const auto& attribute : spec.extra_attribs) {
+        if (attribute.type() != OIIO::TypeString) continue;
+        texts.emplace_back(attribute.name().string(), attribute.get_string());
+        if (attribute.name() != "ImageDescription") continue;
+        std::istringstream lines(attribute.get_string());
+        for (std::string line; std::getline(lines, line);)
+            if (const auto colon = line.find(": "); colon != std::string::npos)
+                texts.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+    }
+    return texts;
+}
+
 }  // namespace
 }  // namespace limn
 
-extern "C" const limn::ImageModule limnImageModule{limn::openJpeg, limn::openTiff, limn::read, limn::readInfo};
+extern "C" const limn::ImageModule limnImageModule{
+    limn::openJpeg, limn::openTiff, limn::read, limn::readInfo, limn::readWhole};

@@ -1,5 +1,6 @@
 #include "base/content_key.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "image/image.h"
 
 #include <fmt/format.h>
@@ -118,7 +119,33 @@ std::unique_ptr<ImageEncoder> openPng(
     return std::make_unique<PngEncoder>(layers.front(), height, metadata, options);
 }
 
-const ImageFormat kPng{{".png"}, "8 or 16 bits, display-encoded, lossless", {}, openPng};
+/// Not by the image library, whose PNG reader tells standard error what it thinks of a cut file.
+std::optional<Metadata> readWholePng(const std::filesystem::path& path) {
+    const MappedFile file(path);
+    constexpr std::string_view end("\0\0\0\0IEND\xae\x42\x60\x82", 12);  // decoders do without it
+    if (!file.text().ends_with(end)) return std::nullopt;
+    const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
+    std::size_t size = 0;
+    spng_ihdr header{};
+    if (spng_set_png_buffer(context.get(), file.text().data(), file.text().size()) != 0
+        || spng_get_ihdr(context.get(), &header) != 0
+        || spng_decoded_image_size(context.get(), SPNG_FMT_PNG, &size) != 0
+        || spng_decode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_DECODE_PROGRESSIVE) != 0)
+        return std::nullopt;
+    std::vector<std::byte> row(size / header.height);
+    int status = 0;
+    while (status == 0) status = spng_decode_row(context.get(), row.data(), row.size());
+    if (status != SPNG_EOI || spng_decode_chunks(context.get()) != 0) return std::nullopt;
+    std::uint32_t count = 0;
+    static_cast<void>(spng_get_text(context.get(), nullptr, &count));
+    std::vector<spng_text> texts(count);
+    if (count > 0 && spng_get_text(context.get(), texts.data(), &count) != 0) return std::nullopt;
+    Metadata found;
+    for (const auto& text : texts) found.emplace_back(text.keyword, std::string(text.text, text.length));
+    return found;
+}
+
+const ImageFormat kPng{{".png"}, "8 or 16 bits, display-encoded, lossless", {}, openPng, readWholePng};
 
 }  // namespace
 }  // namespace limn

@@ -53,4 +53,17 @@ std::vector<int> framesOf(
     return frames;
 }
 
+std::vector<int> chunkOf(const std::vector<int>& frames, const std::string& chunk) {
+    std::uint64_t part = 0, parts = 0;
+    const char* const end = chunk.data() + chunk.size();
+    const auto first = std::from_chars(chunk.data(), end, part);
+    const bool hasParts = first.ec == std::errc() && first.ptr < end && *first.ptr == '/';
+    const auto second = hasParts ? std::from_chars(first.ptr + 1, end, parts) : first;
+    if (!hasParts || second.ec != std::errc() || second.ptr != end || part < 1 || part > parts || parts > kMostFrames)
+        throw Error(ExitCode::usage, {fmt::format("--chunk {}", chunk)}, "this is not I/N",
+            "write for example --chunk 3/40, with I from 1 to N");
+    const auto at = [&](std::uint64_t i) { return static_cast<std::ptrdiff_t>(i * frames.size() / parts); };
+    return {frames.begin() + at(part - 1), frames.begin() + at(part)};
+}
+
 }  // namespace limn

@@ -15,4 +15,8 @@ std::vector<int> parseFrames(const std::string& text);
 std::vector<int> framesOf(
     const RenderConfig& config, const std::string& asked, const std::optional<FrameRange>& declared);
 
+/// The I-th of N parts of a list, I/N being for example "3/40": parts follow one another and differ by one frame at
+/// most. Throws Error (usage).
+std::vector<int> chunkOf(const std::vector<int>& frames, const std::string& chunk);
+
 }  // namespace limn

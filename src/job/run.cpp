@@ -2,16 +2,16 @@
 
 #include "base/file.h"
 #include "base/log.h"
+#include "job/behind.h"
 #include "job/frame_files.h"
 #include "job/frames.h"
-#include "job/progress.h"
 #include "job/statistics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <mutex>
 
 namespace limn {
 namespace {
@@ -21,96 +21,53 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-PixelRect parseCrop(const std::string& text, glm::ivec2 size) {
-    PixelRect rect;
-    int* numbers[] = {&rect.origin.x, &rect.origin.y, &rect.size.x, &rect.size.y};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (int i = 0; i < 4; ++i) {
-        const auto [next, status] = std::from_chars(at, end, *numbers[i]);
-        const bool comma = next < end && *next == ',';
-        if (status != std::errc() || (i < 3 ? !comma : next != end))
-            throw Error(ExitCode::usage, {fmt::format("--crop {}", text)}, "this is not X,Y,W,H",
-                "write for example --crop 100,50,320,200, in pixels from the upper left");
-        at = next + 1;
-    }
-    if (rect.origin.x < 0 || rect.origin.y < 0 || rect.size.x < 1 || rect.size.y < 1
-        || rect.size.x > size.x - rect.origin.x || rect.size.y > size.y - rect.origin.y)
-        throw Error(ExitCode::usage, {fmt::format("--crop {}", text)},
-            fmt::format("the rectangle does not lie in the picture of {}×{}", size.x, size.y), "");
-    return rect;
-}
+/// A frame on its way to its files.
+struct FrameTask {
+    FrameWriter writer;
+    Statistics::Frame report;
+    Clock::time_point begun;
+    bool isBroken = false;  ///< an earlier step failed
+};
+using SharedTask = std::shared_ptr<FrameTask>;
 
-std::filesystem::path outputPath(const RenderConfig& config, const std::string& asked, bool several) {
-    if (asked.empty()) return config.output.path;
-    std::string text = asked;
-    const std::string stem = config.file.stem().string();
-    if (const auto at = text.find("{config}"); at != std::string::npos) {
-        text.replace(at, 8, stem);
-        several = false;
-    }
-    std::error_code unknown;
-    if (std::filesystem::is_directory(text, unknown) || text.ends_with('/'))
-        return std::filesystem::path(text) / config.output.path.filename();
-    if (several)
-        throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "several configs would write the same file",
-            "put {config} into the path, or name a folder");
-    if (!imageFormat(text))
-        throw Error(ExitCode::usage, {fmt::format("--output {}", asked)}, "this is no picture file",
-            "end the path in " + imageExtensions());
-    return text;
-}
-
-/// A config and all that is known about it before drawing.
-struct Job {
-    RenderConfig config;
-    std::filesystem::path output;
-    PixelRect crop;  ///< empty: everything
+/// The pixels of the last frame, for those after it that show the same.
+struct LastFrame {
+    ContentKey pixels;
+    std::vector<std::shared_ptr<const RenderedFrame>> bands;  ///< empty: not kept
 };
 
-Job readJob(const std::string& path, const RunOptions& options, const std::vector<Job>& before) {
-    Job job{readRenderConfig(path, options.overrides), {}, {}};
-    job.output = outputPath(job.config, options.output, options.configs.size() > 1);
-    for (const auto& other : before)
-        if (other.output.lexically_normal() == job.output.lexically_normal())
-            throw Error(ExitCode::usage, {path},
-                fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()),
-                "put {config} into --output, or give each its own output.path");
-    if (job.config.image.transparent && imageFormat(job.output)->traits.isOpaque)
-        log::warning(
-            "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,
-            job.output.string());
-    if (!options.crop.empty()) job.crop = parseCrop(options.crop, job.config.image.size);
-    return job;
-}
-
-/// Reads all configs, and reports every problem in them before anything is drawn.
-std::vector<Job> readJobs(const RunOptions& options) {
-    ErrorCollector errors;
-    std::vector<Job> jobs;
-    for (const auto& path : options.configs) errors.run([&] { jobs.push_back(readJob(path, options, jobs)); });
-    errors.throwIfAny();
-    const bool needsLibrary = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
-        const ImageFormat* format = imageFormat(job.output);
-        return format && format->traits.needsLibrary;
-    });
-    if (needsLibrary) preloadImageLibrary();
-    return jobs;
-}
+/// A picture of more bytes is not kept for the next frame.
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
 
 class Run {
 public:
-    explicit Run(const RunOptions& options) : options_(options), session_(options.session) {}
+    explicit Run(const RunOptions& options)
+        : options_(options),
+          session_(options.session),
+          progress_(options.progress, std::chrono::duration<double>(options.frameTimeout)) {}
 
     ExitCode draw() {
         const std::vector<Job> jobs = readJobs(options_);
         // What cannot be written is said before anything is drawn for it.
         if (!options_.stats.empty()) requireWritable(options_.stats);
+        Errors failures;
+        collect(failures.list, [&] { drawAll(jobs); });
+        ExitCode code = failures.list.empty() ? ExitCode::done : failures.code();
+        if (failures.list.empty() && failed_ > 0) code = done_ > 0 ? ExitCode::someFramesFailed : firstFailure_;
+        if (!options_.stats.empty())
+            replaceFile(options_.stats, statistics_.json(deviceName_, code, since(start_) / 1000));
+        if (!failures.list.empty()) throw std::move(failures);
+        return code;
+    }
+
+private:
+    void drawAll(const std::vector<Job>& jobs) {
         // The first scene loads while the device starts, and its meshes are made as far as time allows.
         std::optional<int> first;
         if (!options_.frames.empty()) first = parseFrames(options_.frames).front();
-        session_.makeAhead(jobs.front().config, first);
+        if (!options_.resume && options_.chunk.empty()) session_.makeAhead(jobs.front().config, first);
         const auto& device = session_.renderer().device();
+        deviceName_ = device.report().renderer;
         log::debug("drawing on {} ({})", device.report().renderer, device.report().version);
         deviceMilliseconds_ = since(start_);
         for (std::size_t j = 0; j < jobs.size(); ++j) {
@@ -118,88 +75,142 @@ public:
             const auto ahead = [&] {
                 if (j + 1 < jobs.size()) session_.loadAhead(jobs[j + 1].config);
             };
-            attempt([&] {
+            attempt(jobs[j].output, 0, [&] {
                 progress_.begin(fmt::format("reading {}", jobs[j].config.scene.string()));
                 const LoadedScene& loaded = session_.load(jobs[j].config);
                 progress_.end();
                 ahead();
-                drawJob(jobs[j], loaded);
+                loadMilliseconds_ = loadMilliseconds_ > 0 ? loadMilliseconds_ : since(start_);
+                const std::vector<int> frames = framesOf(jobs[j], options_, loaded);
+                progress_.beginJob(j, jobs.size(), frames.size());
+                drawFrames(jobs[j], frames);
             });
             ahead();
             const bool isDone = std::none_of(jobs.begin() + static_cast<std::ptrdiff_t>(j) + 1, jobs.end(),
                 [&](const Job& later) { return later.config.scene == jobs[j].config.scene; });
             if (isDone) session_.forget(jobs[j].config);
         }
+        behind_.wait();
         if (!device.debugMessages().empty())
             throw Error(ExitCode::internal, {},
                 fmt::format("the GL driver objects: {}", device.debugMessages().front()), "please report this");
-        if (!options_.stats.empty()) replaceFile(options_.stats, statistics_.json());
-        if (failed_ == 0) return ExitCode::done;
-        return done_ > 0 ? ExitCode::someFramesFailed : firstFailure_;
     }
 
-private:
-    /// Runs `work`; with --keep-going it reports and counts what that throws.
-    void attempt(const auto& work) {
-        if (!options_.keepGoing) return work();
+    /// Runs `work`; with --keep-going it reports and counts what that throws. False if it threw.
+    bool attempt(const std::filesystem::path& path, int frame, const auto& work) {
+        if (!options_.keepGoing) return work(), true;
         std::vector<Error> errors;
         collect(errors, work);
+        if (errors.empty()) return true;
+        const std::lock_guard lock(mutex_);
         for (const auto& error : errors) {
             log::error("{}", error.message);
             if (failed_++ == 0) firstFailure_ = error.code;
         }
+        statistics_.add({path, frame, FrameOutcome::failed, {}, 0, errors.front().message});
+        return false;
     }
 
-    void drawJob(const Job& job, const LoadedScene& loaded) {
-        if (done_ == 0) loadMilliseconds_ = since(start_);
-        const std::vector<int> frames = framesOf(job.config, options_.frames, loaded.scene.frames);
-        if (frames.size() > 1 && !hasFrameNumber(job.output))
-            throw Error(ExitCode::usage, {job.output.string()},
-                fmt::format("{} frames would be written to one file", frames.size()),
-                "put #### into the path: room_####.png");
-        tellBeyond(job, loaded, frames);
-        for (const int frame : frames) attempt([&] { drawFrame(job, frame); });
+    void drawFrames(const Job& job, const std::vector<int>& frames) {
+        last_ = {};
+        if (!frames.empty()) requireWritable(framePath(job.output, frames.front()));
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const std::optional<int> next = i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
+            const auto path = framePath(job.output, frames[i]);
+            attempt(path, frames[i], [&] { drawFrame(job, path, frames[i], next, frames.size() > 1); });
+        }
+        last_ = {};
+        if (frames.empty()) log::info("{}: no frame in part {}", job.config.file.string(), options_.chunk);
     }
 
-    /// Frames that no scene declares are drawn, with what the nearest declared one shows; asking for them may be a
-    /// slip.
-    void tellBeyond(const Job& job, const LoadedScene& loaded, const std::vector<int>& frames) const {
-        const auto& declared = loaded.scene.frames;
-        if (!declared) return;
-        const auto beyond = std::count_if(
-            frames.begin(), frames.end(), [&](int frame) { return frame < declared->first || frame > declared->last; });
-        if (beyond > 0)
-            log::warning("{}: {} of {} frames lie beyond {}-{}, which the scene declares", job.config.scene.string(),
-                beyond, frames.size(), declared->first, declared->last);
+    void drawFrame(
+        const Job& job, const std::filesystem::path& path, int frame, std::optional<int> next, bool several) {
+        const auto files = frameFiles(path, job.config.output.aovs);
+        progress_.begin(path.string());
+        if (options_.resume && areCurrent(files, session_.identify(job.config, frame, job.crop).metadata)) {
+            log::info("Kept: '{}' is complete and current", path.string());
+            statistics_.add({path, frame, FrameOutcome::kept, {}, 0, {}});
+            return endFrame(false);
+        }
+        const int height = job.crop.size.x > 0 ? job.crop.size.y : job.config.image.size.y;
+        const auto task = std::make_shared<FrameTask>(FrameTask{FrameWriter(files, job.config.output.encode, height),
+            {path, frame, FrameOutcome::drawn, {}, 0, {}}, done_ == 0 ? start_ : Clock::now()});
+        const ContentKey pixels = several ? session_.pixelsKey(job.config, frame) : ContentKey();
+        if (several && pixels == last_.pixels && !last_.bands.empty()) {
+            repeat(job, frame, task);
+        } else {
+            last_ = {pixels, {}};
+            drawNew(job, frame, next, several, task);
+        }
+        post(task, [this, task] { finish(*task); });
+        endFrame(true);
     }
 
-    void drawFrame(const Job& job, int frame) {
-        const auto frameStart = done_ == 0 ? start_ : Clock::now();
-        const auto path = framePath(job.output, frame);
-        // Encodes while drawing, so that memory does not hold the picture twice.
-        FrameWriter writer(
-            path, job.config.output.encode, job.crop.size.x > 0 ? job.crop.size.y : job.config.image.size.y);
+    void endFrame(bool wasDrawn) {
+        progress_.end();
+        progress_.frameDone(wasDrawn);
+        if (wasDrawn) ++done_;
+    }
+
+    /// Writes the last frame's pixels as another frame.
+    void repeat(const Job& job, int frame, const SharedTask& task) {
+        task->report.outcome = FrameOutcome::same;
+        const Metadata metadata = session_.identify(job.config, frame, job.crop).metadata;
+        for (const auto& band : last_.bands) post(task, [task, band, metadata] { task->writer.add(*band, metadata); });
+    }
+
+    void drawNew(const Job& job, int frame, std::optional<int> next, bool several, const SharedTask& task) {
         RenderOptions wanted;
         wanted.crop = job.crop;
-        wanted.onBand = [&](const RenderedFrame& band) { writer.add(band); };
-        wanted.onProgress = [&](double share) { progress_.reach(share); };
-        progress_.begin(path.string());
+        std::size_t kept = 0;
+        // Encodes behind the drawing, so that memory does not hold the picture twice.
+        wanted.onBand = [&](RenderedFrame& drawn) {
+            auto band = std::make_shared<RenderedFrame>();
+            band->opaque = drawn.opaque;
+            band->metadata = drawn.metadata;
+            for (auto& layer : drawn.layers) {
+                kept += layer.image.pixels.size() * sizeof(float);
+                band->layers.push_back(layer);
+                layer.image = {};
+            }
+            if (several && kept <= kMostKept)
+                last_.bands.push_back(band);
+            else
+                last_.bands.clear();
+            post(task, [task, band] { task->writer.add(*band, band->metadata); });
+        };
+        wanted.onProgress = [&](double share) {
+            progress_.reach(share);
+            if (options_.frameTimeout > 0 && since(task->begun) > 1000 * options_.frameTimeout)
+                throw Error(ExitCode::transient, {task->report.file.string()},
+                    fmt::format("took longer than {} s", options_.frameTimeout), "raise --frame-timeout, or try again");
+        };
+        if (next) wanted.onScene = [&] { session_.makeAhead(job.config, *next); };
         RenderedFrame rendered = session_.draw(job.config, frame, wanted);
-        if (rendered.nonFinite > 0) tellNonFinite(rendered.nonFinite, path);
-        std::vector<PartTime> parts = std::move(rendered.times);
+        if (kept > kMostKept) last_.bands.clear();
+        if (rendered.nonFinite > 0) tellNonFinite(rendered.nonFinite, task->report.file);
+        task->report.parts = std::move(rendered.times);
         if (done_ == 0)
-            parts.insert(parts.begin(),
+            task->report.parts.insert(task->report.parts.begin(),
                 {{"device", deviceMilliseconds_},
                     {"load, beyond the device", std::max(0.0, loadMilliseconds_ - deviceMilliseconds_)}});
+    }
+
+    /// A step of a frame's writing, in its turn. After a step that failed none of the frame's follows.
+    void post(const SharedTask& task, std::function<void()> step) {
+        behind_.post([this, task, step = std::move(step)] {
+            if (!task->isBroken) task->isBroken = !attempt(task->report.file, task->report.frame, step);
+        });
+    }
+
+    void finish(FrameTask& task) {
         const auto writeStart = Clock::now();
-        const auto files = writer.finish();
-        parts.push_back({"write", since(writeStart)});
-        const double total = since(frameStart);
-        progress_.end();
-        for (const auto& file : files) log::info("Saved: '{}' ({:.1f} ms)", file.string(), total);
-        for (const auto& part : parts) log::debug("  {:<24} {:8.1f} ms", part.name, part.milliseconds);
-        statistics_.addFrame(path, frame, parts, total);
-        ++done_;
+        const auto files = task.writer.finish();
+        task.report.parts.push_back({"write", since(writeStart)});
+        task.report.total = since(task.begun);
+        for (const auto& file : files) log::info("Saved: '{}' ({:.1f} ms)", file.string(), task.report.total);
+        for (const auto& part : task.report.parts) log::debug("  {:<24} {:8.1f} ms", part.name, part.milliseconds);
+        statistics_.add(task.report);
     }
 
     void tellNonFinite(std::uint64_t count, const std::filesystem::path& path) const {
@@ -213,9 +224,14 @@ private:
     Session session_;
     Statistics statistics_;
     Progress progress_;
+    LastFrame last_;
+    std::string deviceName_;
     double deviceMilliseconds_ = 0, loadMilliseconds_ = 0;  ///< since the run began
-    std::size_t failed_ = 0, done_ = 0;
+    std::mutex mutex_;                                      ///< of what failed:
+    std::size_t failed_ = 0;
     ExitCode firstFailure_ = ExitCode::done;
+    std::size_t done_ = 0;
+    Behind behind_;  ///< ends first: its tasks use the rest
 };
 
 }  // namespace

@@ -33,11 +33,13 @@ void Session::loadAhead(const RenderConfig& config) {
 
 void Session::makeAhead(const RenderConfig& config, std::optional<int> frame) {
     loadAhead(config);
-    meshes_ = std::async(std::launch::async, [config, loading = scenes_.at(nameOf(config)), frame] {
-        const LoadedScene& loaded = *loading.get();
-        const int first = config.frames ? config.frames->first : loaded.scene.firstFrame();
-        return makeMeshesOf(config, loaded, frame.value_or(first));
-    });
+    meshesFrame_ = frame;
+    meshes_ = std::async(std::launch::async,
+        [config, loading = scenes_.at(nameOf(config)), frame, held = renderer_ ? renderer_->held() : Renderer::Held()] {
+            const LoadedScene& loaded = *loading.get();
+            const int first = config.frames ? config.frames->first : loaded.scene.firstFrame();
+            return makeMeshesOf(config, loaded, frame.value_or(first), held);
+        });
 }
 
 const LoadedScene& Session::load(const RenderConfig& config) {
@@ -74,8 +76,18 @@ std::vector<std::filesystem::path> Session::changedFiles() const {
 RenderedFrame Session::draw(const RenderConfig& config, int frame, const RenderOptions& options) {
     Renderer& drawing = renderer();
     const LoadedScene& loaded = load(config);
-    if (meshes_.valid()) drawing.await(std::move(meshes_));
+    if (meshes_.valid() && meshesFrame_.value_or(frame) == frame) drawing.await(std::move(meshes_));
+    meshes_ = {};
     return drawing.render(config, loaded, frame, options);
+}
+
+FrameIdentity Session::identify(const RenderConfig& config, int frame, const PixelRect& crop) {
+    Renderer& drawing = renderer();
+    return drawing.identify(config, load(config), frame, crop);
+}
+
+ContentKey Session::pixelsKey(const RenderConfig& config, int frame) {
+    return limn::pixelsKey(config, sceneAt(load(config), frameRequest(config, frame)), frame);
 }
 
 PlanReport Session::plan(const RenderConfig& config, int frame) {

@@ -28,7 +28,8 @@ public:
 
     /// Begins to load the scene of a config in the background.
     void loadAhead(const RenderConfig& config);
-    /// The same, and then makes the meshes of a frame (nullopt: the first declared one) for the next draw().
+    /// The same, and then makes the meshes of a frame (nullopt: the first declared one) for the next draw(), but those
+    /// that the device holds.
     void makeAhead(const RenderConfig& config, std::optional<int> frame);
     /// The scene of a config; loads it if necessary. Throws what loading throws.
     const LoadedScene& load(const RenderConfig& config);
@@ -38,6 +39,10 @@ public:
     std::vector<std::filesystem::path> changedFiles() const;
 
     RenderedFrame draw(const RenderConfig& config, int frame, const RenderOptions& options = {});
+    /// What a frame will be, without drawing it.
+    FrameIdentity identify(const RenderConfig& config, int frame, const PixelRect& crop);
+    /// Of its pixels alone.
+    ContentKey pixelsKey(const RenderConfig& config, int frame);
     /// Plans without a device, unless one has been started.
     PlanReport plan(const RenderConfig& config, int frame);
 
@@ -61,7 +66,8 @@ private:
     std::map<SceneName, std::filesystem::file_time_type> begun_;  ///< when loading each began
     std::map<SceneName, std::map<std::filesystem::path, Stamp>>
         stamps_;                      ///< of the files of scenes_, when they were read
-    std::future<MadeMeshes> meshes_;  ///< under way for the next draw()
+    std::future<MadeMeshes> meshes_;  ///< under way for the draw() of:
+    std::optional<int> meshesFrame_;  ///< nullopt: whichever comes next
 };
 
 }  // namespace limn

@@ -1,22 +1,40 @@
-// The numbers of a run: the file of --stats.
+// The report of a run: the file of --stats.
 #pragma once
 
 #include "render/renderer.h"
 
 #include <filesystem>
+#include <mutex>
+#include <span>
 #include <string>
 
 namespace limn {
 
+/// What became of a frame: it was drawn, it shows the same as another one, its files were complete and current, or it
+/// failed.
+enum class FrameOutcome { drawn, same, kept, failed };
+
 class Statistics {
 public:
-    /// Milliseconds; `parts` are in order of execution.
-    void addFrame(const std::filesystem::path& file, int frame, const std::vector<PartTime>& parts, double total);
-    /// JSON: {"version", "frames": [{"file", "frame", "parts": {NAME: ms}, "total": ms}]}.
-    std::string json() const;
+    struct Frame {
+        std::filesystem::path file;
+        int frame = 1;
+        FrameOutcome outcome = FrameOutcome::drawn;
+        std::vector<PartTime> parts;  ///< in order of execution
+        double total = 0;             ///< milliseconds, from its begin until its files were in place
+        std::string problem;          ///< of a failed frame
+    };
+
+    /// May be called by several threads.
+    void add(const Frame& frame);
+    /// JSON: {"version", "limn", "device", "exit_code", "seconds", "peak_memory", "drawn", "same", "kept", "failed",
+    /// "frames": [{"file", "frame", "outcome", "parts": {NAME: ms}, "total": ms, "problem"}]}.
+    std::string json(const std::string& device, ExitCode exitCode, double seconds) const;
 
 private:
+    mutable std::mutex mutex_;
     std::string frames_;
+    std::size_t counts_[4] = {};
 };
 
 }  // namespace limn

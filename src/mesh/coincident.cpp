@@ -328,11 +328,13 @@ std::vector<CoincidentTriangle> findCoincident(std::span<const PlacedTriangles> 
         above.level = std::max(above.level, std::min(below.level + 1, kMostLevels));
         above.facing = above.facing || below.facing;
     }
+    int highest = 0;  // no higher than needed: each level moves a triangle a little further
+    for (const auto& [number, standing] : standings) highest = std::max(highest, standing.level);
     std::vector<CoincidentTriangle> found;
     for (const auto& [number, standing] : standings) {
         const std::uint32_t mesh = finder.meshOf(number), triangle = finder.triangleOf(number);
         if (standing.level > 0) found.push_back({mesh, triangle, standing.level, false});
-        if (standing.facing) found.push_back({mesh, triangle, kMostLevels + 1 + standing.level, true});
+        if (standing.facing) found.push_back({mesh, triangle, highest + 1 + standing.level, true});
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
     return found;

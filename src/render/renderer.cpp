@@ -93,27 +93,6 @@ Image crop(const Image& image, const PixelRect& rect) {
     return part;
 }
 
-/// CPU features on which llvmpipe's code depends, and the last bits of its results.
-std::string cpuFeatures() {
-    std::string text;
-    const auto add = [&](bool present, const char* name) {
-        if (present) text += (text.empty() ? "" : " ") + std::string(name);
-    };
-#if defined(__x86_64__)
-    __builtin_cpu_init();
-    add(__builtin_cpu_supports("avx"), "avx");
-    add(__builtin_cpu_supports("avx2"), "avx2");
-    add(__builtin_cpu_supports("fma"), "fma");
-    add(__builtin_cpu_supports("avx512f"), "avx512f");
-#endif
-    return text.empty() ? "baseline" : text;
-}
-
-MeshNeeds meshNeeds(SceneData needs) {
-    return {has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices),
-        has(needs, SceneData::colors)};
-}
-
 /// Copies the part of a tile's image that lies in a band: columns from `left` to `right` of the picture.
 void putIntoBand(
     Image& band, const Image& image, const PixelRect& tile, const PixelRect& bandRect, int left, int right) {
@@ -145,22 +124,18 @@ void takeBand(std::vector<Image>&& band, const RenderOptions& options, RenderedF
         return;
     }
     // Hands a few rows on at a time, which keeps encoders' buffers small.
-    constexpr int kRows = 128;
-    for (int top = 0; top < band.front().height; top += kRows) {
+    const int rows = std::clamp((1 << 20) / band.front().width, 16, 128);
+    for (int top = 0; top < band.front().height; top += rows) {
         for (std::size_t i = 0; i < band.size(); ++i)
-            result.layers[i].image = crop(band[i], {{0, top}, {band[i].width, std::min(kRows, band[i].height - top)}});
+            result.layers[i].image = crop(band[i], {{0, top}, {band[i].width, std::min(rows, band[i].height - top)}});
         options.onBand(result);
     }
     for (auto& layer : result.layers) layer.image = {};
 }
 
-Metadata metadataOf(const RenderConfig& config, const SceneAt& scene, int frame, const gl::DeviceReport& device,
-    const Pipeline& pipeline) {
-    return {{"Software", fmt::format("limn {}", kVersion)}, {"limn.config", config.hash},
-        {"limn.scene", scene.key.hex()}, {"limn.frame", std::to_string(frame)},
-        {"limn.accuracy", std::string(config.in("geometry").front().technique->name)},
-        {"limn.device", fmt::format("{} | {}", device.renderer, device.version)}, {"limn.cpu", cpuFeatures()},
-        {"limn.plan", passNames(pipeline)}};
+MeshNeeds meshNeeds(SceneData needs) {
+    return {has(needs, SceneData::normals), has(needs, SceneData::uvs), has(needs, SceneData::unifiedVertices),
+        has(needs, SceneData::colors)};
 }
 
 Layer emptyLayer(const Aov& aov) {
@@ -175,7 +150,8 @@ Renderer::Renderer(const gl::DeviceOptions& device, const std::filesystem::path&
     : device_(device),
       shaders_(shaderFolder),
       executor_(device_, shaders_),
-      gpuScene_(device_.limits(), device_.report().isSoftware) {}
+      gpuScene_(device_.limits(), device_.report().isSoftware),
+      shadersKey_(shadersKey(shaderFolder)) {}
 
 int Renderer::largestTexture() const { return std::min(device_.limits().maxTextureSize, device_.limits().maxViewport); }
 
@@ -189,6 +165,13 @@ void Renderer::prepare(const Pipeline& pipeline, View view) {
         if (kinds.insert(runs).second) executor_.prepare(pipeline.graph, pipeline.ofSample(view), view);
     }
 }
+
+bool Renderer::Held::contains(const ContentKey& order) const {
+    const auto known = shownAs.find(order);
+    return meshes.contains(known == shownAs.end() ? order : known->second);
+}
+
+Renderer::Held Renderer::held() const { return {gpuScene_.residents(), shownAs_}; }
 
 ContentKey Renderer::shownAs(const ContentKey& order) const {
     const auto known = shownAs_.find(order);
@@ -376,29 +359,23 @@ static std::uint64_t bandBytes(const std::vector<Layer>& layers, int width, int 
     return 3 * sizeof(float) * channels * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(rows);
 }
 
-RenderedFrame Renderer::render(
-    const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
-    RenderedFrame result;
-    Stopwatch watch(result.times);
-    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number, std::move(awaited_)};
-    frame.scene = sceneAt(loaded, frame.request);
-    frame.facts = sceneFacts(frame.scene);
+FrameIdentity Renderer::identify(
+    const RenderConfig& config, const LoadedScene& loaded, int number, const PixelRect& crop) const {
+    const SceneAt scene = sceneAt(loaded, frameRequest(config, number));
+    const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
+    const TilePipelines pipelines =
+        buildPipelines(config, scene, sceneFacts(scene), number, largestTexture(), 0, {block, block});
+    return {metadataOf(config, scene, number, crop, device_.report(), shadersKey_, pipelines.averaged),
+        pixelsKey(config, scene, number)};
+}
+
+void Renderer::drawBands(
+    Frame& frame, const TilePipelines& pipelines, const RenderOptions& options, RenderedFrame& result) {
+    const RenderConfig& config = frame.config;
     const glm::ivec2 size = config.image.size;
-    const PixelRect firstBlock{glm::ivec2(0), largestBlock(size)};
-    const TilePipelines pipelines = buildPipelines(
-        config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
-    checkShadows(frame.scene, loaded.scene.file);
-    watch.lap("plan");
-    bringScene(frame, pipelines, result.times);
-    watch.lap("scene to the GPU");
-
-    result.opaque = !config.image.transparent;
-    result.metadata = metadataOf(config, frame.scene, number, device_.report(), pipelines.averaged);
-    for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
-
     // Tiles begin at multiples of four.
     const PixelRect wanted = wantedPart(options.crop, size);
-    const int tileSize = chooseTileSize(config, pipelines, firstBlock.size);
+    const int tileSize = chooseTileSize(config, pipelines, largestBlock(size));
     // A block that cannot be cut is drawn whole, whatever is wanted of it.
     const bool wholeBlocks = !takesAnyTile(pipelines);
     const auto columns = tileSpans(size, 0, tileSize, wanted), rows = tileSpans(size, 1, tileSize, wanted);
@@ -433,11 +410,35 @@ RenderedFrame Renderer::render(
         }
         takeBand(std::move(band), options, result);
     }
+}
+
+RenderedFrame Renderer::render(
+    const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
+    RenderedFrame result;
+    Stopwatch watch(result.times);
+    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number, std::move(awaited_)};
+    frame.scene = sceneAt(loaded, frame.request);
+    frame.facts = sceneFacts(frame.scene);
+    const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
+    const TilePipelines pipelines = buildPipelines(
+        config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
+    checkShadows(frame.scene, loaded.scene.file);
+    watch.lap("plan");
+    bringScene(frame, pipelines, result.times);
+    watch.lap("scene to the GPU");
+    if (options.onScene) options.onScene();
+
+    result.opaque = !config.image.transparent;
+    result.metadata =
+        metadataOf(config, frame.scene, number, options.crop, device_.report(), shadersKey_, pipelines.averaged);
+    for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
+
+    drawBands(frame, pipelines, options, result);
     watch.lap("draw");
     return result;
 }
 
-MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame) {
+MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame, const Renderer::Held& held) {
     const FrameRequest request = frameRequest(config, frame);
     const SceneAt scene = sceneAt(loaded, request);
     const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
@@ -445,7 +446,8 @@ MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, i
     const TilePipelines pipelines =
         buildPipelines(config, scene, sceneFacts(scene), frame, kAnySize, 0, {block, block});
     const MeshOrders orders = orderMeshes(loaded, scene, request, meshNeeds(pipelines.sceneData()));
-    return makeMeshes(loaded, scene, request, orders, [](const MeshOrder&) { return true; });
+    return makeMeshes(
+        loaded, scene, request, orders, [&](const MeshOrder& order) { return !held.contains(order.key); });
 }
 
 }  // namespace limn

@@ -4,7 +4,7 @@
 #include "gpu/executor.h"
 #include "image/image.h"
 #include "rays/ray_scene.h"
-#include "render/pipeline.h"
+#include "render/identity.h"
 #include "stage/meshes.h"
 
 #include <chrono>
@@ -13,6 +13,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace limn {
@@ -23,9 +24,11 @@ struct RenderOptions {
     PixelRect crop;  ///< output pixels from the *upper* left; empty: everything
     bool measure = false;
     int guard = 0;  ///< draws and keeps at least this many pixels around the picture; even. Not of tiles
-    /// Takes a picture band by band, from the top, as the layers' images. The frame then drops them; without it the
-    /// frame keeps them all.
-    std::function<void(const RenderedFrame&)> onBand;
+    /// Takes a picture band by band, from the top, as the layers' images, which it may move away. Without it
+    /// the frame keeps them all.
+    std::function<void(RenderedFrame&)> onBand;
+    /// Told when the scene is on the GPU: what comes next may be prepared.
+    std::function<void()> onScene;
     /// Told now and then how much of the picture is drawn: 0 to 1.
     std::function<void(double)> onProgress;
 };
@@ -45,6 +48,11 @@ struct RenderedFrame {
     View view;                    ///< of the first sample
 };
 
+struct FrameIdentity {
+    Metadata metadata;  ///< of every file
+    ContentKey pixels;  ///< frames with the same one show the same
+};
+
 /// GPU milliseconds of a pass, over all samples of a frame.
 struct PassTime {
     std::string name, slot;
@@ -62,6 +70,18 @@ public:
 
     RenderedFrame render(
         const RenderConfig& config, const LoadedScene& loaded, int frame, const RenderOptions& options);
+
+    /// The meshes that are on the GPU, and under which orders' content keys they are shown.
+    struct Held {
+        std::set<ContentKey> meshes;
+        std::map<ContentKey, ContentKey> shownAs;
+        bool contains(const ContentKey& order) const;
+    };
+    Held held() const;
+
+    /// What a frame will be, without drawing it. Throws what reading its meshes throws.
+    FrameIdentity identify(
+        const RenderConfig& config, const LoadedScene& loaded, int frame, const PixelRect& crop) const;
 
     /// With RenderOptions::measure: the times of the last frame's averaged pipeline, pass by pass.
     const std::vector<PassTime>& passTimes() const { return passTimes_; }
@@ -98,6 +118,8 @@ private:
     /// Throws Error where the shadow maps of all lights do not fit into a texture.
     void checkShadows(const SceneAt& scene, const std::string& file) const;
 
+    /// Draws the wanted part of the picture tile by tile, and gives it on in bands.
+    void drawBands(Frame& frame, const TilePipelines& pipelines, const RenderOptions& options, RenderedFrame& result);
     /// Draws a tile: one image per AOV of the config, of the tile's size (and the guard band to be kept).
     std::vector<Image> drawTile(
         const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
@@ -110,6 +132,7 @@ private:
     ShaderLibrary shaders_;
     Executor executor_;
     GpuScene gpuScene_;
+    std::string shadersKey_;  ///< of a folder of shaders
     std::vector<PassTime> passTimes_;
     std::map<ContentKey, ContentKey> shownAs_;  ///< MadeMeshes::shownAs of all that was made
     std::unique_ptr<RayScene> rayScene_;        ///< only where the plan traces rays, as are:
@@ -119,7 +142,8 @@ private:
     std::chrono::steady_clock::time_point toldAt_;  ///< when RenderOptions::onProgress was told last
 };
 
-/// Makes the meshes that a frame needs without a device, while one starts.
-MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, int frame);
+/// Makes the meshes that a frame needs and that are not held, without a device.
+MadeMeshes makeMeshesOf(
+    const RenderConfig& config, const LoadedScene& loaded, int frame, const Renderer::Held& held = {});
 
 }  // namespace limn
