@@ -69,7 +69,8 @@ Scene sceneOfMesh(const std::filesystem::path& path) {
     scene.file = path.string();
     const std::string name = path.stem().string();
     scene.meshes.push_back({.name = name, .file = path.string()});
-    scene.instances.push_back({{.name = name, .mesh = name}, {}});
+    Keyed<Instance>& instance = scene.instances.emplace_back();
+    instance.base.name = instance.base.mesh = name;
     return scene;
 }
 

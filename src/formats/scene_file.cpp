@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace limn {
@@ -43,22 +45,45 @@ constexpr Field kMesh[] = {
         "corners = [[vertex, sharpness], ...]; vertices count from 0, sharpness 10 is infinite."),
 };
 
-constexpr Field kInstance[] = {
-    field<&Instance::name>("name", "Name of the object; the mesh's name if left out."),
+/// Fields of a place, as an instance or a node has them.
+constexpr std::array kPlace{
+    field<&Placement::name>("name", "Name of the object; the mesh's name if left out."),
+    field<&Placement::parent>("parent", "An instance or node that it moves with; its place then counts from there."),
+    field<&Placement::translate>("translate", {.unit = "scene units"}, "Where the origin goes."),
+    field<&Placement::rotate>("rotate", {.unit = "degrees"}, "Turn about x, then y, then z."),
+    field<&Placement::quaternion>(
+        "quaternion", "Turn as [w, x, y, z], instead of rotate: between keys the shortest way."),
+    field<&Placement::scale>("scale", "Stretch along the own axes; negative mirrors."),
+    field<&Placement::matrix>("matrix", "4×4 matrix in row order, instead of translate, rotate, quaternion and scale."),
+};
+
+constexpr std::array kInstanceOwn{
     field<&Instance::mesh>("mesh", {.required = true}, "Name of the mesh to draw."),
     field<&Instance::material>("material", "Material that replaces those of the mesh."),
-    field<&Instance::translate>("translate", {.unit = "scene units"}, "Where the mesh's origin goes."),
-    field<&Instance::rotate>("rotate", {.unit = "degrees"}, "Turn about x, then y, then z."),
-    field<&Instance::scale>("scale", "Stretch along the mesh's axes; negative mirrors."),
+    field<&Instance::visible>("visible", "false: it is not drawn; may be keyed."),
     field<&Instance::lines>("lines", "false: no lines are drawn of this object."),
     field<&Instance::lineColor>("line_color", "Colour of the lines of this object; \"same\": as elsewhere."),
     field<&Instance::creaseAngle>("crease_angle", {.unit = "degrees", .min = 0, .max = 180},
         "Smallest angle between normals that is drawn on this object; 0: as elsewhere."),
-    field<&Instance::matrix>("matrix", "4×4 matrix in row order, instead of translate, rotate and scale."),
+};
+
+constexpr auto kInstance = joinFields(kPlace, kInstanceOwn);
+
+constexpr Field kSequence[] = {
+    field<&SequenceSettings::first>("first", {.min = -1e8, .max = 1e8, .required = true}, "Number of the first file."),
+    field<&SequenceSettings::last>("last", {.min = -1e8, .max = 1e8, .required = true}, "Number of the last file."),
+    field<&SequenceSettings::start>("start", {.unit = "frames"}, "The frame that shows the first file."),
+    field<&SequenceSettings::speed>(
+        "speed", {.unit = "files per frame", .min = 0, .max = 1000}, "0.5: each file twice."),
+    field<&SequenceSettings::ends>("ends", "Before the first file and after the last: hold, loop or bounce."),
 };
 
 constexpr Field kCamera[] = {
     field<&Camera::name>("name", "Name by which configs call the camera."),
+    field<&Camera::parent>("parent", "An instance or node that position, look_at and up move with."),
+    field<&Camera::target>("target", "An instance or node to look at; look_at is then counted from its origin."),
+    field<&Camera::orbit>("orbit", {.unit = "degrees"},
+        "How far the camera has gone around the point that it looks at; keyed from 0 to 360 it is a turntable."),
     field<&Camera::position>("position", {.unit = "scene units", .required = true}, "Where the camera stands."),
     field<&Camera::lookAt>("look_at", {.unit = "scene units", .required = true},
         "The point in the middle of the picture (without shift)."),
@@ -81,6 +106,7 @@ constexpr Field kCamera[] = {
 
 constexpr Field kLight[] = {
     field<&Light::name>("name", "Name of the light."),
+    field<&Light::parent>("parent", "An instance or node that direction and position move with."),
     field<&Light::kind>("kind", "sun (parallel), point or spot."),
     field<&Light::direction>("direction", "Direction in which the light travels (sun, spot)."),
     field<&Light::position>("position", {.unit = "scene units"}, "Where the light stands (point, spot)."),
@@ -187,7 +213,7 @@ public:
             throw Error(ExitCode::badData, {document_.where.file}, "is a config, not a scene",
                 "name the scene that this config draws");
         static constexpr std::string_view sections[] = {
-            "version", "units", "mesh", "instance", "camera", "light", "material", "section", "animation"};
+            "version", "units", "mesh", "node", "instance", "camera", "light", "material", "section", "animation"};
         SceneHeader header;
         readVersion(document_, "the scene", errors_);
         readFields(document_, kHeader, &header, nullptr, "the scene", errors_, sections);
@@ -200,16 +226,20 @@ public:
         readAnimation();
         forEach("mesh", [&](const Node& node) { readMesh(node); });
         forEach("material", [&](const Node& node) { readMaterial(node); });
+        forEach("node", [&](const Node& node) { readNode(node); });
         forEach("instance", [&](const Node& node) { readInstance(node); });
         forEach("camera", [&](const Node& node) { readCamera(node); });
         forEach("light", [&](const Node& node) { readLight(node); });
         forEach("section", [&](const Node& node) { readSection(node); });
+        checkParents();
         if (scene_.meshes.empty() && errors_.empty())
             fail(document_, "the scene has no [[mesh]]", "add one:  [[mesh]]  name = \"chair\"  file = \"chair.obj\"");
         errors_.throwIfAny();
         if (scene_.instances.empty())
-            for (const auto& mesh : scene_.meshes)
-                scene_.instances.push_back({{.name = mesh.name, .mesh = mesh.name}, {}});
+            for (const auto& mesh : scene_.meshes) {
+                Keyed<Instance>& instance = scene_.instances.emplace_back();
+                instance.base.name = instance.base.mesh = mesh.name;
+            }
         return std::move(scene_);
     }
 
@@ -246,15 +276,18 @@ private:
     }
 
     /// A file per frame: all that the scene declares must be there.
-    std::string resolveFrames(const Node& node) {
+    std::string resolveFrames(const Node& node, const SequenceSettings& sequence) {
         const auto path = pathIn(node);
-        const MeshSource source{.file = path.string(), .perFrame = true};
+        const MeshSource source{.file = path.string(), .perFrame = true, .sequence = sequence};
         const FrameRange frames = scene_.frames.value_or(FrameRange{});
         std::string first;
         int missing = 0;
-        for (std::int64_t frame = frames.first; frame <= frames.last; ++frame)
+        std::set<int> known;
+        for (std::int64_t frame = frames.first; frame <= frames.last; ++frame) {
+            if (!known.insert(source.numberAt(static_cast<int>(frame))).second) continue;
             if (const auto file = source.at(static_cast<int>(frame)); !fileExists(file) && missing++ == 0)
                 first = file.string();
+        }
         if (missing > 0)
             fail(node,
                 fmt::format("'{}' does not exist{}", first,
@@ -277,8 +310,16 @@ private:
                 fmt::format("write for example frames = \"1-240\", with at most {} frames", kMostFrames));
     }
 
+    void readSequence(const Node& node, SequenceSettings& settings) {
+        settings.present = true;
+        readFields(node, kSequence, &settings, nullptr, "sequence", errors_);
+        if (settings.last < settings.first || settings.last - std::int64_t{settings.first} >= kMostFrames)
+            fail(node, fmt::format("the files {} to {} are no range", settings.first, settings.last),
+                fmt::format("give last at least the number of first, and at most {} files", kMostFrames));
+    }
+
     void readMesh(const Node& node) {
-        static constexpr std::string_view alsoKnown[] = {"subdivision"};
+        static constexpr std::string_view alsoKnown[] = {"subdivision", "sequence"};
         auto mesh = readTable<MeshSource>(node, kMesh, "[[mesh]]", alsoKnown).base;
         if (const Node* settings = node.find("subdivision")) readSubdivision(*settings, mesh.subdivision);
         mesh.creases = resolveFile(node, "creases", mesh.creases);
@@ -286,7 +327,14 @@ private:
         // A file may simply have such a name.
         mesh.perFrame =
             hasFrameNumber(std::filesystem::path(mesh.file).filename()) && !fileExists(pathIn(*node.find("file")));
-        mesh.file = mesh.perFrame ? resolveFrames(*node.find("file")) : resolveFile(node, "file", mesh.file);
+        if (const Node* sequence = node.find("sequence")) {
+            readSequence(*sequence, mesh.sequence);
+            if (!mesh.perFrame && errors_.empty())
+                fail(*sequence, "the mesh has one file for all frames", "put #### where file has the frame's number");
+            if (!errors_.empty()) return;
+        }
+        mesh.file =
+            mesh.perFrame ? resolveFrames(*node.find("file"), mesh.sequence) : resolveFile(node, "file", mesh.file);
         if (!meshNames_.insert(mesh.name).second)
             fail(node, fmt::format("there are two meshes named '{}'", mesh.name), "give each its own name");
         scene_.meshes.push_back(std::move(mesh));
@@ -322,23 +370,87 @@ private:
             candidates.empty() ? fmt::format("add a [[{}]] with that name", key) : nameRemedy(name, candidates));
     }
 
-    void readInstance(const Node& node) {
-        auto instance = readTable<Instance>(node, kInstance, "[[instance]]");
-        requireName(node, "mesh", instance.base.mesh, meshNames_);
-        requireName(node, "material", instance.base.material, materialNames_);
+    void checkPlace(const Node& node, const Placement& place) {
         if (const Node* matrix = node.find("matrix")) {
-            const auto& m = instance.base.matrix;
+            const auto& m = place.matrix;
             if (m.size() != 16)
                 fail(*matrix, fmt::format("'matrix' has {} numbers", m.size()), "give 16, in row order");
             else if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
                 fail(*matrix, "the last row of 'matrix' is not 0 0 0 1",
                     "rows come one after the other; translation stands at the end of the first three");
-            for (const auto other : {"translate", "rotate", "scale"})
+            for (const auto other : {"translate", "rotate", "quaternion", "scale"})
                 if (node.find(other))
                     fail(*node.find(other), fmt::format("'{}' stands beside 'matrix'", other), "use one or the other");
         }
+        if (node.find("quaternion") && node.find("rotate"))
+            fail(*node.find("quaternion"), "'quaternion' stands beside 'rotate'", "use one or the other");
+    }
+
+    void noteParent(const Node& node, const std::string& key, const std::string& own, const std::string& parent) {
+        if (const Node* given = node.find(key)) parents_.push_back({given->where, key, own, parent});
+    }
+
+    void readNode(const Node& node) {
+        auto place = readTable<Placement>(node, kPlace, "[[node]]");
+        checkPlace(node, place.base);
+        if (place.base.name.empty()) fail(node, "the node has no name", "name it: others call it by that");
+        noteParent(node, "parent", place.base.name, place.base.parent);
+        scene_.nodes.push_back(std::move(place));
+    }
+
+    void readInstance(const Node& node) {
+        auto instance = readTable<Instance>(node, kInstance, "[[instance]]");
+        requireName(node, "mesh", instance.base.mesh, meshNames_);
+        requireName(node, "material", instance.base.material, materialNames_);
+        checkPlace(node, instance.base);
         if (instance.base.name.empty()) instance.base.name = instance.base.mesh;
+        noteParent(node, "parent", instance.base.name, instance.base.parent);
         scene_.instances.push_back(std::move(instance));
+    }
+
+    /// Every parent is there once, and nothing is its own ancestor.
+    void checkParents() {
+        if (parents_.empty()) return;
+        std::map<std::string, int> count;
+        std::map<std::string, std::string> parentOf;
+        const auto know = [&](const Placement& place) {
+            ++count[place.name];
+            parentOf[place.name] = place.parent;
+        };
+        for (const auto& node : scene_.nodes) know(node.base);
+        for (const auto& instance : scene_.instances) know(instance.base);
+        std::vector<std::string> names;
+        for (const auto& [name, times] : count) names.push_back(name);
+        for (const auto& wanted : parents_) {
+            const auto add = [&](std::string problem, std::string remedy) {
+                errors_.add({ExitCode::usage, wanted.where, std::move(problem), std::move(remedy)});
+            };
+            if (!count.contains(wanted.parent))
+                add(fmt::format("there is no instance or node named '{}'", wanted.parent),
+                    nameRemedy(wanted.parent, names));
+            else if (count[wanted.parent] > 1)
+                add(fmt::format("there are several instances or nodes named '{}'", wanted.parent),
+                    "give each its own name");
+            else if (isOwnAncestor(wanted, parentOf))
+                add(fmt::format("'{}' is its own ancestor", wanted.own), "break the circle of parents");
+        }
+    }
+
+    /// A name that must be an instance's or a node's: where it stands, its key, and who says it.
+    struct ParentName {
+        Location where;
+        std::string key, own, parent;
+    };
+
+    static bool isOwnAncestor(const ParentName& wanted, const std::map<std::string, std::string>& parentOf) {
+        std::set<std::string> seen{wanted.own};
+        if (wanted.own.empty()) return false;
+        for (std::string at = wanted.parent; !at.empty();) {
+            if (!seen.insert(at).second) return true;
+            const auto next = parentOf.find(at);
+            at = next == parentOf.end() ? "" : next->second;
+        }
+        return false;
     }
 
     void readCamera(const Node& node) {
@@ -350,10 +462,12 @@ private:
             fail(node, "the camera's near distance is not below its far distance", "lower near or raise far");
         if (lenses > 1)
             fail(node, "a camera can have only one of focal_length, fov and orthographic_height", "remove the others");
-        if (node.find("position") && node.find("look_at") && !camera.moves()
+        if (node.find("position") && node.find("look_at") && !camera.moves() && camera.base.target.empty()
             && camera.base.position == camera.base.lookAt)
             fail(*node.find("look_at"), "the camera looks at the point where it stands",
                 "move look_at away from position");
+        noteParent(node, "parent", "", camera.base.parent);
+        noteParent(node, "target", "", camera.base.target);
         scene_.cameras.push_back(std::move(camera));
     }
 
@@ -366,6 +480,7 @@ private:
         }
         if (light.base.kind != LightKind::point && glm::length(light.base.direction) == 0)
             fail(node, "the light's direction has no length", "give a direction such as [-1, -2, -1]");
+        noteParent(node, "parent", "", light.base.parent);
         scene_.lights.push_back(std::move(light));
     }
 
@@ -384,6 +499,7 @@ private:
     Scene scene_;
     ErrorCollector errors_;
     std::set<std::string> meshNames_, materialNames_;
+    std::vector<ParentName> parents_;
 };
 
 }  // namespace
@@ -394,6 +510,9 @@ std::vector<SettingsTable> sceneTables() {
         {"[[mesh]]", "a mesh file", kMesh, defaultsOf<MeshSource>()},
         {"[[mesh]] subdivision", "draws the subdivision surface of the mesh; without it, its polygons as they are",
             kSubdivision, defaultsOf<SubdivisionSettings>()},
+        {"[[mesh]] sequence", "which of a mesh's numbered files each frame shows; without it the one of its own number",
+            kSequence, defaultsOf<SequenceSettings>()},
+        {"[[node]]", "a place without a mesh, for others to move with", kPlace, defaultsOf<Placement>()},
         {"[[instance]]", "a mesh placed in the scene; without any, each mesh is drawn once where it was modelled",
             kInstance, defaultsOf<Instance>()},
         {"[[camera]]", "a camera; without any, one that frames the scene", kCamera, defaultsOf<Camera>()},

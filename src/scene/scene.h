@@ -124,16 +124,35 @@ struct SubdivisionSettings {
     std::optional<EdgeLength> wantedEdge() const;
 };
 
+/// What a mesh with a file per frame shows before its first file and after its last.
+enum class SequenceEnds { hold, loop, bounce };
+template <>
+inline constexpr std::array<std::string_view, 3> enumNames<SequenceEnds> = {"hold", "loop", "bounce"};
+
+/// Which of a mesh's numbered files a frame shows.
+struct SequenceSettings {
+    bool present = false;  ///< false: the file of the frame's own number
+    int first = 1, last = 1;
+    double start = 1;  ///< the frame that shows the first file
+    double speed = 1;  ///< files per frame
+    SequenceEnds ends = SequenceEnds::hold;
+
+    /// The number of the file at a frame.
+    int fileAt(double frame) const;
+};
+
 struct MeshSource {
     std::string name;
     std::string file;                              ///< absolute, or relative to the working directory
     bool perFrame = false;                         ///< the file's name is a pattern: #### stands for the frame number
     std::vector<std::string> parts, withoutParts;  ///< patterns: only these parts of the file, and not those
-    std::string creases;                           ///< sidecar of creases and corners; empty = none
+    SequenceSettings sequence;
+    std::string creases;  ///< sidecar of creases and corners; empty = none
     SubdivisionSettings subdivision;
     Location where;
 
-    /// The file to read at a frame.
+    /// The number of the file to read at a frame, and that file. Without a file per frame the number is 0.
+    int numberAt(int frame) const;
     std::filesystem::path at(int frame) const;
 };
 
@@ -143,25 +162,36 @@ struct MeshFileOptions {
     std::optional<Axis> up;        ///< the axis that points up; y if nothing is said
 };
 
-struct Instance {
+/// A place in the scene, relative to another one.
+struct Placement {
     std::string name;
+    std::string parent;  ///< an instance or a node; empty: the scene
+    glm::dvec3 translate{0};
+    glm::dvec3 rotate{0};               ///< degrees, about x, then y, then z
+    glm::dquat quaternion{1, 0, 0, 0};  ///< instead of rotate
+    glm::dvec3 scale{1};
+    std::vector<double> matrix;  ///< 16 numbers in row order; replaces all of these
+
+    /// To the parent.
+    glm::dmat4 transform() const;
+};
+
+struct Instance : Placement {
     std::string mesh;
     std::string material;  ///< replaces every material of the mesh; empty = the file's own
-    glm::dvec3 translate{0};
-    glm::dvec3 rotate{0};  ///< degrees, about x, then y, then z
-    glm::dvec3 scale{1};
-    std::vector<double> matrix;  ///< 16 numbers in row order; replaces translate, rotate and scale
-    bool lines = true;           ///< are lines drawn?
-    OptionalColor lineColor;     ///< overrides the material's, as does:
-    double creaseAngle = 0;      ///< degrees; 0 = as the material says
-
-    glm::dmat4 transform() const;
+    bool visible = true;
+    bool lines = true;        ///< are lines drawn?
+    OptionalColor lineColor;  ///< overrides the material's, as does:
+    double creaseAngle = 0;   ///< degrees; 0 = as the material says
 };
 
 struct Camera {
     std::string name;
+    std::string parent;  ///< an instance or a node that position, lookAt and up belong to; empty: the scene
     glm::dvec3 position{0, 0, 5};
     glm::dvec3 lookAt{0, 0, 0};
+    std::string target;             ///< an instance or a node: lookAt is counted from its origin, in the scene's axes
+    double orbit = 0;               ///< degrees that the camera has gone around lookAt, about up, against the clock
     glm::dvec3 up{0};               ///< zero: the scene's up axis
     double focalLength = 0;         ///< mm; 0 = by fov
     double sensorWidth = 36;        ///< mm
@@ -180,6 +210,7 @@ struct ShadowSettings {
 
 struct Light {
     std::string name;
+    std::string parent;  ///< an instance or a node that direction and position belong to; empty: the scene
     LightKind kind = LightKind::sun;
     glm::dvec3 direction{-1, -2, -1};  ///< travel direction; sun and spot
     glm::dvec3 position{0, 3, 0};      ///< point and spot
@@ -201,12 +232,18 @@ struct Scene {
     double metersPerUnit = 1;
     std::vector<MeshSource> meshes;
     std::vector<Keyed<Instance>> instances;
+    std::vector<Keyed<Placement>> nodes;  ///< places without a mesh
     std::vector<Keyed<Camera>> cameras;
     std::vector<Keyed<Light>> lights;
     std::vector<Keyed<Material>> materials;
     std::vector<Keyed<Section>> sections;
     std::optional<FrameRange> frames;  ///< declared frames; none for a still
     double fps = 24;
+
+    /// From a place to the scene, through its parents.
+    glm::dmat4 worldFrom(const Placement& place, double frame) const;
+    /// From an instance or node to the scene; no name: the scene itself.
+    glm::dmat4 worldFrom(std::string_view name, double frame) const;
 
     glm::dvec3 upVector() const { return up == Axis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1); }
     /// The frame at which relative lengths are resolved.

@@ -325,9 +325,11 @@ const FieldType& fieldType<unsigned>() {
 }
 template <>
 const FieldType& fieldType<bool>() {
-    static constexpr FieldType type{"boolean", 0, readBool,
-        [](const void* member) { return plain(*static_cast<const bool*>(member) ? "true" : "false"); }, nullptr,
-        nullptr, "bool", 4, 4, packAs<bool, int>, {}};
+    static constexpr FieldType type{"boolean", 1, readBool,
+        [](const void* member) { return plain(*static_cast<const bool*>(member) ? "true" : "false"); },
+        [](const void* member, double* numbers) { *numbers = *static_cast<const bool*>(member) ? 1 : 0; },
+        [](void* member, const double* numbers) { *static_cast<bool*>(member) = *numbers >= 0.5; }, "bool", 4, 4,
+        packAs<bool, int>, {}};
     return type;
 }
 template <>
@@ -436,6 +438,36 @@ const FieldType& fieldType<glm::dvec3>() {
         made.pack = nullptr;
         return made;
     }();
+    return type;
+}
+/// [w, x, y, z], of any length but zero.
+Problem readRotation(void* member, const Node& node, const Field& field) {
+    glm::dvec4 q(0);
+    if (auto problem = readVector<4, glm::dvec4>(&q, node, field)) return problem;
+    const double length = glm::length(q);
+    if (!(length > 0) || !std::isfinite(length)) return "is no rotation: it has no length";
+    q /= length;
+    *static_cast<glm::dquat*>(member) = glm::dquat(q[0], q[1], q[2], q[3]);
+    return {};
+}
+
+template <>
+const FieldType& fieldType<glm::dquat>() {
+    static constexpr FieldType type{"rotation as [w, x, y, z]", 4, readRotation,
+        [](const void* member) {
+            const auto& q = *static_cast<const glm::dquat*>(member);
+            return fmt::format("[{}, {}, {}, {}]", numberText(q.w), numberText(q.x), numberText(q.y), numberText(q.z));
+        },
+        [](const void* member, double* numbers) {
+            const auto& q = *static_cast<const glm::dquat*>(member);
+            numbers[0] = q.w, numbers[1] = q.x, numbers[2] = q.y, numbers[3] = q.z;
+        },
+        [](void* member, const double* numbers) {
+            const glm::dquat q(numbers[0], numbers[1], numbers[2], numbers[3]);
+            const double length = glm::length(q);
+            *static_cast<glm::dquat*>(member) = length > 0 ? q / length : glm::dquat(1, 0, 0, 0);
+        },
+        "", 0, 0, nullptr, {}};
     return type;
 }
 template <>

@@ -17,6 +17,7 @@
 #include "settings/values.h"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <array>
 #include <cstddef>
@@ -63,8 +64,8 @@ struct FieldType {
     std::span<const std::string_view> names;  ///< of an enumeration
 };
 
-/// Declared for float, double, int, bool, text, Color, Length, PictureLength, vectors, lists and every enum with
-/// enumNames.
+/// Declared for float, double, int, bool, text, Color, Length, PictureLength, vectors, rotations, lists and every enum
+/// with enumNames.
 template <class T>
 const FieldType& fieldType();
 
@@ -161,21 +162,49 @@ std::string typeText(const Field& field);
 
 // --- Values over frames
 
-enum class Interpolation { constant, linear, smooth };
+/// Between two keyframes: the first one's value; straight; slow at both ends; a curve through all keyframes without
+/// corners (Catmull & Rom 1974, for uneven distances); a cubic Bézier curve by handles, as animation programs have it.
+enum class Interpolation { constant, linear, smooth, spline, bezier };
 template <>
-inline constexpr std::array<std::string_view, 3> enumNames<Interpolation> = {"constant", "linear", "smooth"};
+inline constexpr std::array<std::string_view, 5> enumNames<Interpolation> = {
+    "constant", "linear", "smooth", "spline", "bezier"};
 
-struct Keyframe {
+/// Before the first keyframe and after the last: their values; straight on; all again; again, moved on by what a round
+/// brings; again, there and back.
+enum class Beyond { hold, linear, repeat, offset, mirror };
+template <>
+inline constexpr std::array<std::string_view, 5> enumNames<Beyond> = {"hold", "linear", "repeat", "offset", "mirror"};
+
+/// A frame and a value there.
+struct TrackPoint {
     double frame = 0;
     std::array<double, 4> value{};
 };
 
-/// The keyframes of one field, sorted by frame. Values are held before the first keyframe and after the last.
+struct Keyframe : TrackPoint {
+    TrackPoint left, right;  ///< handles; only of Bézier curves
+};
+
+/// The keyframes of one field, sorted by frame, or those of one of its numbers.
 struct Track {
     const Field* field = nullptr;
+    int component = -1;  ///< -1: all numbers; else one, in the first of each value
     Interpolation interpolation = Interpolation::linear;
+    Beyond beyond = Beyond::hold;
     std::vector<Keyframe> keyframes;
+
+    /// The numbers at a frame.
+    std::array<double, 4> at(double frame) const;
 };
+
+/// Reads `{ keys = [[frame, value], …], interpolation = …, beyond = … }`, or one such table for each of a field's
+/// numbers, by the names of componentNames(). The object then holds the first keyframe's value. Adds problems to
+/// `errors`.
+void readTracks(const Node& node, const Field& field, void* object, std::vector<Track>& tracks, std::string_view what,
+    ErrorCollector& errors, ExitCode code);
+
+/// What the numbers of a field are called: "xyz", "rgb", "wxyz"; empty for single numbers.
+std::string_view componentNames(const FieldType& type);
 
 /// Writes the tracks' values at `frame` into the object.
 void applyTracks(void* object, std::span<const Track> tracks, double frame);

@@ -67,7 +67,7 @@ std::vector<Viewer> findViewers(const LoadedScene& loaded, std::size_t number, c
         FrameRequest at = request;
         at.frame = frame;
         const View view = makeView(cameraAt(loaded, at), info, {.imageSize = request.imageSize});
-        const glm::dmat4 world = loaded.scene.instances[number].at(frame).transform();
+        const glm::dmat4 world = loaded.scene.worldFrom(loaded.scene.instances[number].at(frame), frame);
         const glm::dmat3 linear(world);
         glm::dmat4 toView(view.viewFromRelative * linear);
         toView[3] = glm::dvec4(view.toView(glm::dvec3(world[3])), 1);
@@ -120,12 +120,13 @@ std::optional<SubdivisionSettings::EdgeLength> wantedEdge(const LoadedScene& loa
 }  // namespace
 
 int edgeClass(const LoadedScene& loaded, const SceneAt& scene, std::size_t instance, const FrameRequest& request) {
-    const auto wanted = wantedEdge(loaded, instance);
+    const std::size_t source = scene.instances[instance].source;
+    const auto wanted = wantedEdge(loaded, source);
     if (!wanted) return 0;
     const Bounds& bounds = scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)]->bounds;
     if (bounds.empty()) return 0;
     double size = 0;
-    for (const auto& viewer : viewersOf(loaded, {&instance, 1}, request))
+    for (const auto& viewer : viewersOf(loaded, {&source, 1}, request))
         size = std::max(size,
             wanted->isPixels ? viewer.pixelsPerUnitOf(bounds.centre(), bounds.diagonal() / 2) : viewer.worldScale);
     constexpr int kClassesPerOctave = 2;

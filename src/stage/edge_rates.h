@@ -16,9 +16,9 @@ std::shared_ptr<EdgeViewers> makeEdgeViewers();
 /// surplus triangles cost less than a mesh for each instance.
 int edgeClass(const LoadedScene& loaded, const SceneAt& scene, std::size_t instance, const FrameRequest& request);
 
-/// Segments per edge of a mesh for its `edge_length`, as fine as the finest of these instances needs; nothing when it
-/// has none. The nearest camera of all declared frames measures the pixels of an edge, whatever frames are drawn, so
-/// that every subset of frames has the same triangles. Edges that no frame sees are not cut.
+/// Segments per edge of a mesh for its `edge_length`, as fine as the finest of these instances (numbers in the scene)
+/// needs; nothing when it has none. The nearest camera of all declared frames measures the pixels of an edge, whatever
+/// frames are drawn, so that every subset of frames has the same triangles. Edges that no frame sees are not cut.
 std::function<int(const glm::dvec3&, const glm::dvec3&)> edgeRates(
     const LoadedScene& loaded, std::span<const std::size_t> instances, const FrameRequest& request);
 /// Adds everything that these rates depend on to a content key.

@@ -51,10 +51,10 @@ ContentKey textureKey(const Material& material, const ImageKeys& images) {
 }
 
 ContentKey lightKey(const Light& light) {
-    const auto& [name, kind, direction, position, color, intensity, range, angle, blend, shadow] = light;
+    const auto& [name, parent, kind, direction, position, color, intensity, range, angle, blend, shadow] = light;
     const auto& [present, resolution, softness] = shadow;
     KeyBuilder key;
-    key.add(name).add(kind);
+    key.add(name).add(parent).add(kind);
     addVector(key, direction);
     addVector(key, position);
     addColor(key, color);

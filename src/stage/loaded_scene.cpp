@@ -160,7 +160,7 @@ struct MeshLibrary::State {
     ImageKeys images;
     AlphaMasks masks;
 
-    int frameOf(std::size_t source, int frame) const { return sources[source].perFrame ? frame : 0; }
+    int frameOf(std::size_t source, int frame) const { return sources[source].numberAt(frame); }
 
     SharedMesh find(std::size_t source, int frame) const {
         for (const auto& entry : entries[source])
@@ -290,7 +290,9 @@ static Bounds boundsAt(const LoadedScene& loaded, int frame, const std::vector<S
     Bounds bounds;
     for (const auto& instance : loaded.scene.instances) {
         const Instance placed = instance.at(frame);
-        bounds.add(instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, placed.transform()));
+        if (!placed.visible) continue;
+        bounds.add(
+            instanceBounds(meshes[meshIndex(loaded.scene, placed.mesh)]->poly, loaded.scene.worldFrom(placed, frame)));
     }
     return bounds;
 }

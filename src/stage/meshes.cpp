@@ -16,6 +16,13 @@ const MeshSource& sourceOf(const LoadedScene& loaded, const MeshOrder& order) {
     return loaded.scene.meshes[order.mesh];
 }
 
+/// Which of the scene's instances an order is for.
+std::vector<std::size_t> sourcesOf(const SceneAt& scene, const MeshOrder& order) {
+    std::vector<std::size_t> sources;
+    for (const std::size_t instance : order.instances) sources.push_back(scene.instances[instance].source);
+    return sources;
+}
+
 /// The content key of an order's whole mesh.
 ContentKey wholeKey(const LoadedScene& loaded, const SceneAt& scene, const FrameRequest& request,
     const MeshNeeds& needs, const MeshOrder& order) {
@@ -25,7 +32,7 @@ ContentKey wholeKey(const LoadedScene& loaded, const SceneAt& scene, const Frame
     key.add(needs.normals).add(needs.uvs).add(needs.unified).add(needs.colors);
     if (const auto subdivision = subdivisionOf(sourceOf(loaded, order), file.poly)) {
         addSubdivision(key, *subdivision);
-        addEdgeRates(key, loaded, order.instances, request);
+        addEdgeRates(key, loaded, sourcesOf(scene, order), request);
     }
     return key.key();
 }
@@ -44,7 +51,7 @@ TriMesh makeWhole(const LoadedScene& loaded, const SceneAt& scene, const FrameRe
     const PolyMesh& poly = scene.meshes[order.mesh]->poly;
     auto subdivision = subdivisionOf(sourceOf(loaded, order), poly);
     if (!subdivision || poly.faceCount() == 0) return buildTriMesh(poly, needs);
-    subdivision->edgeRate = edgeRates(loaded, order.instances, request);
+    subdivision->edgeRate = edgeRates(loaded, sourcesOf(scene, order), request);
     return subdivide(poly, *subdivision, needs, sourceOf(loaded, order).file);
 }
 

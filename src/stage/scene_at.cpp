@@ -7,6 +7,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -140,9 +141,14 @@ void placeInstances(const Scene& scene, CutMaterials& cuts, MaterialTable& mater
         const Instance instance = keyed.at(at.frame);
         const std::size_t mesh = meshIndex(scene, instance.mesh);
         const PolyMesh& poly = at.meshes[mesh]->poly;
-        DrawInstance placed{static_cast<int>(mesh), instance.transform(), {}, nextObject, keyed.base.name,
-            poly.partNames, {}, !poly.colors.empty(), !poly.lines.empty(), scene.meshes[mesh].subdivision.present,
-            mostTriangles(scene.meshes[mesh], poly)};
+        const std::uint32_t firstObject = nextObject;  // numbers stay the same when others are hidden
+        nextObject += static_cast<std::uint32_t>(poly.partNames.size())
+            + (cuts.sections().empty() ? 0 : 1);  // cut faces are an object of their own
+        if (!instance.visible) continue;
+        DrawInstance placed{static_cast<int>(mesh), scene.worldFrom(instance, at.frame), {}, firstObject,
+            keyed.base.name, poly.partNames, {}, !poly.colors.empty(), !poly.lines.empty(),
+            scene.meshes[mesh].subdivision.present, mostTriangles(scene.meshes[mesh], poly),
+            static_cast<std::size_t>(&keyed - scene.instances.data())};
         for (const auto& name : poly.materialNames)
             placed.materials.push_back(
                 instance.material.empty() ? materials.ofMesh(mesh, name) : materials.named(instance.material));
@@ -151,18 +157,21 @@ void placeInstances(const Scene& scene, CutMaterials& cuts, MaterialTable& mater
                 placed.materials.push_back(cuts.of(section, placed.materials[i], materials.materials));
         for (const auto material : placed.materials)
             placed.lineRecords.push_back(lineRecord(at, instance, materials.materials[material]));
-        nextObject += static_cast<std::uint32_t>(poly.partNames.size())
-            + (cuts.sections().empty() ? 0 : 1);  // cut faces are an object of their own
         at.instances.push_back(std::move(placed));
     }
 }
 
-Light lightAt(const Keyed<Light>& keyed, const std::string& file, double frame) {
+Light lightAt(const Scene& scene, const Keyed<Light>& keyed, double frame) {
     Light light = keyed.at(frame);
+    if (!light.parent.empty()) {
+        const glm::dmat4 world = scene.worldFrom(light.parent, frame);
+        light.position = glm::dvec3(world * glm::dvec4(light.position, 1));
+        light.direction = glm::dmat3(world) * light.direction;
+    }
     const double size =
         std::max({std::abs(light.direction.x), std::abs(light.direction.y), std::abs(light.direction.z)});
     if (light.kind != LightKind::point && !(size > 0))
-        throw Error(ExitCode::usage, {file},
+        throw Error(ExitCode::usage, {scene.file},
             fmt::format("the direction of light '{}' has no length at frame {}", light.name, frame),
             "keep its keys from pointing opposite ways");
     if (size > 0) light.direction = glm::normalize(light.direction / size);
@@ -183,8 +192,9 @@ double reachOf(const LoadedScene& loaded, const glm::dvec3& direction) {
     double reach = -std::numeric_limits<double>::infinity();
     for (const auto& keyed : loaded.scene.instances) {
         const Instance instance = keyed.at(first);
+        if (!instance.visible) continue;
         const PolyMesh& poly = meshes[meshIndex(loaded.scene, instance.mesh)]->poly;
-        const glm::dmat4 world = instance.transform();
+        const glm::dmat4 world = loaded.scene.worldFrom(instance, first);
         const glm::dvec3 inMesh = glm::transpose(glm::dmat3(world)) * direction;
         const double offset = glm::dot(glm::dvec3(world[3]) - centre, direction);
         const double most = tbb::parallel_reduce(
@@ -203,13 +213,32 @@ double reachOf(const LoadedScene& loaded, const glm::dvec3& direction) {
     return reach;
 }
 
+/// A camera at a frame, moved along with what it belongs to.
+Camera placeCamera(const Scene& scene, const Keyed<Camera>& keyed, double frame) {
+    Camera camera = keyed.at(frame);
+    if (!camera.parent.empty()) {
+        const glm::dmat4 world = scene.worldFrom(camera.parent, frame);
+        camera.position = glm::dvec3(world * glm::dvec4(camera.position, 1));
+        camera.lookAt = glm::dvec3(world * glm::dvec4(camera.lookAt, 1));
+        camera.up = glm::dmat3(world) * camera.up;
+    }
+    if (!camera.target.empty()) camera.lookAt += glm::dvec3(scene.worldFrom(camera.target, frame)[3]);
+    if (camera.orbit != 0) {
+        const bool hasUp = camera.up != glm::dvec3(0);
+        const glm::dvec3 axis = glm::normalize(hasUp ? camera.up : scene.upVector());
+        const glm::dquat turn = glm::angleAxis(glm::radians(std::fmod(camera.orbit, 360.0)), axis);
+        camera.position = camera.lookAt + turn * (camera.position - camera.lookAt);
+    }
+    return camera;
+}
+
 /// The camera that a request names, before its sheet's scale.
 Camera chooseCamera(const LoadedScene& loaded, const FrameRequest& request) {
     const auto& cameras = loaded.scene.cameras;
     if (request.camera.empty())
         return cameras.empty() ? framingCamera(sceneInfo(loaded), request.imageSize,
                    [&](const glm::dvec3& direction) { return reachOf(loaded, direction); })
-                               : cameras.front().at(request.frame);
+                               : placeCamera(loaded.scene, cameras.front(), request.frame);
     std::vector<std::string> names;
     names.reserve(cameras.size());
     for (const auto& camera : cameras) names.push_back(camera.base.name);
@@ -217,7 +246,7 @@ Camera chooseCamera(const LoadedScene& loaded, const FrameRequest& request) {
     if (named == names.end())
         throw Error(ExitCode::usage, {loaded.scene.file}, fmt::format("there is no camera '{}'", request.camera),
             nameRemedy(request.camera, names));
-    return cameras[static_cast<std::size_t>(named - names.begin())].at(request.frame);
+    return placeCamera(loaded.scene, cameras[static_cast<std::size_t>(named - names.begin())], request.frame);
 }
 
 }  // namespace
@@ -245,7 +274,7 @@ SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
     const Scene& scene = loaded.scene;
     SceneAt at;
     at.frame = request.frame;
-    at.meshes = loaded.meshes->at(static_cast<int>(request.frame));
+    at.meshes = loaded.meshes->at(static_cast<int>(std::lround(request.frame)));
     at.info = sceneInfo(loaded);
     MaterialTable materials(scene, at.meshes, request.frame);
     CutMaterials cuts(resolveSections(scene, request), request);
@@ -253,7 +282,7 @@ SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
     placeInstances(scene, cuts, materials, at);
     at.materials = std::move(materials.materials);
     at.camera = cameraAt(loaded, request);
-    for (const auto& light : scene.lights) at.lights.push_back(lightAt(light, scene.file, request.frame));
+    for (const auto& light : scene.lights) at.lights.push_back(lightAt(scene, light, request.frame));
     if (at.lights.empty()) at.lights.push_back(defaultSun(at.camera, at.info));
 
     ImageKeys images = loaded.meshes->imageKeys();

@@ -36,6 +36,7 @@ struct DrawInstance {
     bool hasLines = false;                   ///< the mesh draws lines of its own
     bool isSubdivided = false;               ///< the mesh is a cage
     std::uint64_t mostTriangles = 0;         ///< that may be made of the mesh, sections aside
+    std::size_t source = 0;                  ///< index into Scene::instances: some may be hidden
 };
 
 /// A plane that cuts the scene open. Nothing is drawn on its normal's side.
