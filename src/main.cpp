@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
     cli::addTechniques(app, chosen);
     cli::addInit(app, chosen);
     cli::addMesh(app, chosen);
+    cli::addVideo(app, chosen);
     cli::addStudy(app, chosen);
     cli::addDoctor(app, chosen);
     try {

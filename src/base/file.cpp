@@ -239,18 +239,34 @@ static void dropTemporary(const std::string& path) {
     if (temporaries().paths.erase(path) > 0) ::unlink(path.c_str());
 }
 
-PendingFile::PendingFile(std::filesystem::path path, std::span<const std::byte> bytes) : path_(std::move(path)) {
-    const auto folder = makeFolderOf(path_);
+/// An open temporary beside a file. Makes missing folders, and sweeps. Throws Error.
+static Descriptor makeTemporary(const std::filesystem::path& path, std::string& name) {
+    const auto folder = makeFolderOf(path);
     sweepTemporaries(folder);
-    std::string temporary = (folder / (temporaryPrefix() + "XXXXXX")).string();
-    const auto make = [&] {
+    name = (folder / (temporaryPrefix() + "XXXXXX")).string();
+    const std::lock_guard lock(temporaries().mutex);
+    const int made = ::mkostemp(name.data(), O_CLOEXEC);
+    if (made < 0) throw writeError(path, errno, "creating");
+    temporaries().paths.insert(name);
+    return Descriptor(made);
+}
+
+/// Renames a temporary to the file that it was made for. Throws Error.
+static void commitTemporary(const std::string& temporary, const std::filesystem::path& path) {
+    {
         const std::lock_guard lock(temporaries().mutex);
-        const int made = ::mkostemp(temporary.data(), O_CLOEXEC);
-        if (made >= 0) temporaries().paths.insert(temporary);
-        return made;
-    };
-    Descriptor fd(make());
-    if (fd < 0) throw writeError(path_, errno, "creating");
+        if (::rename(temporary.c_str(), path.c_str()) != 0) throw writeError(path, errno, "renaming");
+        temporaries().paths.erase(temporary);
+    }
+    // The rename itself must survive a power cut; a file system that cannot sync folders has nothing better to offer.
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    const Descriptor folderFd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folderFd >= 0) ::fsync(folderFd);
+}
+
+PendingFile::PendingFile(std::filesystem::path path, std::span<const std::byte> bytes) : path_(std::move(path)) {
+    std::string temporary;
+    Descriptor fd = makeTemporary(path_, temporary);
     try {
         if (::fchmod(fd, 0644) != 0) throw writeError(path_, errno, "creating");
         writeAll(fd, bytes, path_);
@@ -272,16 +288,26 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-    {
-        const std::lock_guard lock(temporaries().mutex);
-        if (::rename(temporary_.c_str(), path_.c_str()) != 0) throw writeError(path_, errno, "renaming");
-        temporaries().paths.erase(temporary_);
-    }
+    commitTemporary(temporary_, path_);
     temporary_.clear();
-    // The rename itself must survive a power cut; a file system that cannot sync folders has nothing better to offer.
-    const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
-    const Descriptor folderFd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (folderFd >= 0) ::fsync(folderFd);
+}
+
+ReservedFile::ReservedFile(std::filesystem::path path) : path_(std::move(path)) {
+    std::string temporary;
+    const Descriptor fd = makeTemporary(path_, temporary);
+    temporary_ = temporary;
+    ::fchmod(fd, 0644);
+}
+
+ReservedFile::~ReservedFile() {
+    if (!temporary_.empty()) dropTemporary(temporary_.string());
+}
+
+void ReservedFile::commit() {
+    const Descriptor fd(::open(temporary_.c_str(), O_RDWR | O_CLOEXEC));
+    if (fd < 0 || ::fsync(fd) != 0) throw writeError(path_, errno, "writing");
+    commitTemporary(temporary_.string(), path_);
+    temporary_.clear();
 }
 
 void abandonPendingFiles() {

@@ -56,6 +56,23 @@ private:
     std::string temporary_;  ///< empty: nothing is there
 };
 
+/// A temporary name beside a file for another program to write to, as PendingFile has one. Gone again unless committed.
+class ReservedFile {
+public:
+    /// Throws Error as PendingFile does.
+    explicit ReservedFile(std::filesystem::path path);
+    ~ReservedFile();
+    ReservedFile(const ReservedFile&) = delete;
+    ReservedFile& operator=(const ReservedFile&) = delete;
+
+    const std::filesystem::path& temporary() const { return temporary_; }
+    /// Syncs it, and lets it take the file's place. Throws Error.
+    void commit();
+
+private:
+    std::filesystem::path path_, temporary_;
+};
+
 /// Removes this process's temporaries and keeps it from making or renaming any more: for those who are about to end it.
 void abandonPendingFiles();
 

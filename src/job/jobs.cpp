@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "job/frames.h"
+#include "job/video.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,7 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
         log::warning(
             "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,
             job.output.string());
+    if (!job.config.output.video.empty()) requireVideo(job.config.output.video);
     if (!options.crop.empty()) job.crop = parseCrop(options.crop, job.config.image.size);
     return job;
 }

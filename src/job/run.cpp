@@ -6,6 +6,7 @@
 #include "job/frame_files.h"
 #include "job/frames.h"
 #include "job/statistics.h"
+#include "job/video.h"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,7 @@ private:
                 const std::vector<int> frames = framesOf(jobs[j], options_, loaded);
                 progress_.beginJob(j, jobs.size(), frames.size());
                 drawFrames(jobs[j], frames);
+                film(jobs[j], frames, loaded.scene.fps);
             });
             ahead();
             const bool isDone = std::none_of(jobs.begin() + static_cast<std::ptrdiff_t>(j) + 1, jobs.end(),
@@ -121,6 +123,22 @@ private:
         }
         last_ = {};
         if (frames.empty()) log::info("{}: no frame in part {}", job.config.file.string(), options_.chunk);
+    }
+
+    /// The film of a job's frames, once they are in place.
+    void film(const Job& job, const std::vector<int>& frames, double fps) {
+        const auto& path = job.config.output.video;
+        if (path.empty() || frames.empty()) return;
+        if (!options_.chunk.empty())
+            return log::info("{}: left to limn video, once all parts are drawn", path.string());
+        behind_.wait();
+        std::vector<std::filesystem::path> files;
+        for (const int frame : frames) files.push_back(framePath(job.output, frame));
+        progress_.begin(path.string());
+        const auto begun = Clock::now();
+        makeVideo(files, path, {fps});
+        progress_.end();
+        log::info("Saved: '{}' ({:.1f} ms)", path.string(), since(begun));
     }
 
     void drawFrame(

@@ -168,6 +168,20 @@ void dropForeignKeys(Node& document, const std::string& setting) {
         log::warning("--set {}: without {}, which the config says of another technique", setting, joinAnd(dropped));
 }
 
+/// A config without what says only where its pictures go and which are drawn: they stay what they are if that changes.
+Node shownBy(Node document) {
+    const auto drop = [](Node& table, std::string_view key) {
+        std::erase_if(std::get<Node::Table>(table.value), [&](const auto& entry) { return entry.first == key; });
+    };
+    if (!document.isTable()) return document;
+    drop(document, "frames");
+    if (Node* output = document.find("output"); output && output->isTable()) {
+        drop(*output, "path");
+        drop(*output, "video");
+    }
+    return document;
+}
+
 class ConfigReader {
 public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides)
@@ -178,7 +192,7 @@ public:
         }
         config_.file = path;
         KeyBuilder key;
-        key.add(canonicalText(document_)).add(overrides.camera).add(overrides.meshFile.subdivide.value_or(-1));
+        key.add(canonicalText(shownBy(document_))).add(overrides.camera).add(overrides.meshFile.subdivide.value_or(-1));
         if (overrides.meshFile.up) key.add(*overrides.meshFile.up);
         config_.hash = key.key().hex();
     }
@@ -272,7 +286,7 @@ private:
     }
 
     void readOutput() {
-        static constexpr std::string_view alsoKnown[] = {"path", "aovs"};
+        static constexpr std::string_view alsoKnown[] = {"path", "aovs", "video"};
         const Node* node = document_.find("output");
         const Node* path = node ? node->find("path") : nullptr;
         if (node) {
@@ -284,6 +298,11 @@ private:
             else if (path)
                 config_.output.path = pathIn(*path);
             if (const Node* aovs = node->find("aovs")) readAovs(*aovs);
+            const Node* video = node->find("video");
+            if (video && !video->text())
+                fail(*video, "'video' in [output] must be text", "");
+            else if (video)
+                config_.output.video = pathIn(*video);
         }
         // A density that the config chose goes into the file, for printers.
         if (const Node* image = document_.find("image"); document_.find("sheet") || (image && image->find("dpi")))
@@ -354,8 +373,10 @@ std::vector<SettingsTable> configTables() {
         {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")",
             kImage, defaultsOf<ImageSettings>()},
         {"[sheet]", "paper to draw on, instead of image.size", kSheet, defaultsOf<Sheet>()},
-        {"[output]", "what is written; also path (#### is the frame number) and aovs (a list)", kOutput,
-            defaultsOf<EncodeOptions>()}};
+        {"[output]",
+            "what is written; also path (#### is the frame number), aovs (a list) and video (a film of all frames: "
+            ".mp4, .webm or .gif)",
+            kOutput, defaultsOf<EncodeOptions>()}};
 }
 
 std::string_view quickstartStyle() {

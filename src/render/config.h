@@ -29,7 +29,8 @@ struct ImageSettings {
 };
 
 struct OutputSettings {
-    std::filesystem::path path;  ///< #### is the frame number
+    std::filesystem::path path;   ///< #### is the frame number
+    std::filesystem::path video;  ///< a film of all frames; empty: none
     std::vector<const Aov*> aovs{&aov::beauty};
     EncodeOptions encode;
 };
@@ -45,7 +46,7 @@ struct RenderConfig {
     double scale = 0;                   ///< of a drawing on a sheet, for example 1/50; 0: from the camera
     std::optional<FrameRange> frames;   ///< replaces the scene's
     OutputSettings output;
-    std::string hash;  ///< of everything in the config, includes and settings applied
+    std::string hash;  ///< of everything in the config that its files show, includes and settings applied
 
     /// The techniques in a slot, in their order.
     const std::vector<TechniqueChoice>& in(std::string_view slot) const;
