@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     cli::addInit(app, chosen);
     cli::addMesh(app, chosen);
     cli::addVideo(app, chosen);
+    cli::addFarm(app, chosen);
     cli::addStudy(app, chosen);
     cli::addDoctor(app, chosen);
     try {

@@ -31,7 +31,7 @@ std::optional<std::filesystem::path> findProgram(const std::string& name) {
     return std::nullopt;
 }
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, Output output) {
     const auto program = findProgram(command.front());
     if (!program)
         throw Error(ExitCode::missingInput, {command.front()}, "the program is not there",
@@ -44,7 +44,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (output == Output::kept)
+        posix_spawn_file_actions_adddup2(&actions, said_, STDOUT_FILENO);
+    else
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
     // The program shall end as programs do, whatever this process has arranged for itself (base/signals.h).
     posix_spawnattr_t attributes;

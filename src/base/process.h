@@ -13,11 +13,13 @@ namespace limn {
 /// Where the shell would find a program; nullopt where it would not.
 std::optional<std::filesystem::path> findProgram(const std::string& name);
 
-/// A program that reads what is written to it. What it says on standard error is kept; its standard output is dropped.
+/// A program that reads what is written to it. What it says on standard error is kept.
 class ChildProcess {
 public:
+    /// Of its standard output.
+    enum class Output { dropped, kept };
     /// Throws Error (missingInput) where there is no such program.
-    explicit ChildProcess(const std::vector<std::string>& command);
+    explicit ChildProcess(const std::vector<std::string>& command, Output output = Output::dropped);
     /// Ends the program, if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

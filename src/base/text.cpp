@@ -152,4 +152,12 @@ std::string lowerCase(std::string_view text) {
     return lower;
 }
 
+std::string shellText(const std::string& text) {
+    const std::string_view safe = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@%";
+    if (!text.empty() && text.find_first_not_of(safe) == std::string::npos) return text;
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+    return result + "'";
+}
+
 }  // namespace limn

@@ -39,6 +39,9 @@ std::string numberText(double value);
 /// A JSON string literal, quotes included.
 std::string jsonText(std::string_view text);
 
+/// Text for a shell, quoted where necessary.
+std::string shellText(const std::string& text);
+
 /// "12.3 MiB"
 std::string bytesText(std::uint64_t bytes);
 

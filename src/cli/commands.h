@@ -19,6 +19,7 @@ void addCheck(CLI::App& app, Chosen& chosen);
 void addTechniques(CLI::App& app, Chosen& chosen);
 void addInit(CLI::App& app, Chosen& chosen);
 void addMesh(CLI::App& app, Chosen& chosen);
+void addFarm(CLI::App& app, Chosen& chosen);
 void addVideo(CLI::App& app, Chosen& chosen);
 void addStudy(CLI::App& app, Chosen& chosen);
 void addDoctor(CLI::App& app, Chosen& chosen);

@@ -21,15 +21,6 @@ std::string vectorText(const glm::dvec3& v, double precision) {
     return fmt::format("[{}, {}, {}]", digits(v.x), digits(v.y), digits(v.z));
 }
 
-/// Text for a shell, quoted where necessary.
-std::string shellText(const std::string& text) {
-    const std::string_view safe = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+=:,@%";
-    if (!text.empty() && text.find_first_not_of(safe) == std::string::npos) return text;
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-    return result + "'";
-}
-
 /// A commented scene of one mesh file.
 std::string sceneText(const SceneAt& scene, const std::string& name, const std::string& file) {
     std::string materials;
