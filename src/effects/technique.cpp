@@ -121,7 +121,7 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.slot = "shadow";
     pass.technique = "shadow_map";
     pass.kind = Pass::Kind::raster;
-    pass.rate = view_.sampling.samples() == 1 ? kEverySample : 1;
+    pass.rate = view_.sampling.samples() == 1 || view_.isBlurred ? kEverySample : 1;
     pass.shader = "scene/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
     pass.needs = SceneData::positions | SceneData::lights;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace limn {
 
@@ -19,6 +20,15 @@ glm::dvec2 Sampling::jitterOf(int subFrame) const {
     glm::dvec2 mean(0);
     for (int j = 0; j < subFrames; ++j) mean += point(j) / static_cast<double>(subFrames);
     return point(subFrame) - mean;
+}
+
+double Sampling::timeOf(int sample) const {
+    // Multiples of a number that shares no divisor with n, near the golden section of n.
+    const int n = samples();
+    int step = std::max(1, static_cast<int>(0.618 * n + 0.5));
+    while (std::gcd(step, n) != 1) ++step;
+    const auto turn = static_cast<double>(std::int64_t{sample} * step % n);
+    return (turn + 0.5) / n - 0.5;
 }
 
 bool Sampling::runs(int rate, int sample) const {

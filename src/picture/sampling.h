@@ -26,6 +26,9 @@ struct Sampling {
     /// Offset of a sub-frame within a fine pixel, in fine pixels: Hammersley points, centred so that their mean is the
     /// pixel's centre.
     glm::dvec2 jitterOf(int subFrame) const;
+    /// When a sample is taken while a shutter is open, from -0.5 to 0.5 of that time: evenly, and in an order that goes
+    /// along with no direction of jitterOf(). Samples at even distances are spread over all of it.
+    double timeOf(int sample) const;
     /// Do things of this rate run in the sample?
     bool runs(int rate, int sample) const;
     /// The number of samples in which they run.

@@ -39,6 +39,9 @@ constexpr Field kImage[] = {
     field<&ImageSettings::lineSamples>("line_samples", {.min = 0, .max = 4096, .accuracy = true, .keyable = false},
         "In how many of these samples lines are found; 0: in a quarter, but at least four. Lines have smooth borders "
         "from one sample on: more are for folds and gaps as narrow as a pixel."),
+    field<&ImageSettings::shutter>("shutter", {.unit = "frames", .min = 0, .max = 100, .keyable = false},
+        "How long the shutter is open around each frame's time: what moves blurs, lines too. Each sample then shows a "
+        "moment of its own: take 16 or more. 0: nothing blurs."),
     field<&ImageSettings::guard>("guard",
         {.unit = "longer sides", .min = 0, .max = 1, .accuracy = true, .keyable = false},
         "How wide a band around the picture may be drawn for effects that look around themselves; made only as wide as "

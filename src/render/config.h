@@ -24,6 +24,7 @@ struct ImageSettings {
     Color background{1, 1, 1};
     bool transparent = false;
     double dpi = 96;
+    double shutter = 0;  ///< frames that the shutter is open for, around the frame's own time; 0: nothing blurs
     double guard = 0.05;
     int tile = 0;
 };

@@ -146,6 +146,7 @@ ViewRequest viewRequest(
     request.aoSamples = config.image.aoSamples;
     request.lineSamples = config.image.lineSamples;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
+    request.isBlurred = config.image.shutter > 0;
     request.dpi = config.image.dpi;
     request.guard = guard;
     request.keptGuard = keptGuard;
@@ -176,7 +177,7 @@ TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, c
     // The first pipelines tell the guard band's width, and whether a finer raster is useful.
     build();
     result.guard = std::max(result.averaged.plan.halo(), result.centre ? result.centre->plan.halo() : 0);
-    if (result.averaged.usesFineRaster)
+    if (result.averaged.usesFineRaster && config.image.shutter == 0)  // else no two samples show the same triangles
         result.sampling =
             splitSamples(result.sampling.samples(), largestBlock(config.image.size) + 2 * result.guard, maxTextureSize);
     if (result.guard > 0 || result.sampling.raster > 1) build();

@@ -275,14 +275,25 @@ void Renderer::tellProgress(const Frame& frame, const RenderOptions& options, in
     options.onProgress((frame.tilesDone + static_cast<double>(sample) / samples) / frame.tiles);
 }
 
+void Renderer::moveTo(Frame& frame, const TilePipelines& pipelines, double time) {
+    FrameRequest request = frame.request;
+    request.frame = time;
+    frame.scene = sceneAt(frame.loaded, request);
+    frame.facts = sceneFacts(frame.scene);
+    std::vector<PartTime> times;
+    bringScene(frame, pipelines, times);
+}
+
 void Renderer::drawSamples(
-    const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options) {
+    Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options) {
     const Pipeline& pipeline = pipelines.averaged;
     executor_.resetMeasurements();
     for (int sample = 0; sample < pipelines.sampling.samples(); ++sample) {
         ViewRequest request =
             viewRequest(frame.config, pipelines.sampling, frame.number, pipelines.guard, options.guard, tile);
         request.sample = sample;
+        if (request.isBlurred)
+            moveTo(frame, pipelines, frame.number + frame.config.image.shutter * pipelines.sampling.timeOf(sample));
         const View view = makeView(frame.scene.camera, frame.scene.info, request);
         gpuScene_.setView(frame.scene, view);
         executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
@@ -297,7 +308,7 @@ void Renderer::drawSamples(
 }
 
 std::vector<Image> Renderer::drawTile(
-    const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result) {
+    Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result) {
     const RenderConfig& config = frame.config;
     const TilePipelines pipelines =
         buildPipelines(config, frame.scene, frame.facts, frame.number, largestTexture(), options.guard, tile);
@@ -320,6 +331,7 @@ std::vector<Image> Renderer::drawTile(
     };
     collect(pipelines.averaged);
     if (pipelines.centre) {
+        if (pipelines.averagedView.isBlurred) moveTo(frame, pipelines, frame.number);
         executor_.resetMeasurements();
         gpuScene_.setView(frame.scene, pipelines.centreView);
         executor_.run(

@@ -121,12 +121,12 @@ private:
     /// Draws the wanted part of the picture tile by tile, and gives it on in bands.
     void drawBands(Frame& frame, const TilePipelines& pipelines, const RenderOptions& options, RenderedFrame& result);
     /// Draws a tile: one image per AOV of the config, of the tile's size (and the guard band to be kept).
-    std::vector<Image> drawTile(
-        const Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
+    std::vector<Image> drawTile(Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
     /// Tells RenderOptions::onProgress, at most twice a second.
     void tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples);
-    void drawSamples(
-        const Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);
+    /// Brings the scene at another moment of the frame.
+    void moveTo(Frame& frame, const TilePipelines& pipelines, double time);
+    void drawSamples(Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);
 
     gl::Device device_;
     ShaderLibrary shaders_;
