@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "cli/commands.h"
 #include "image/image.h"
+#include "job/frames.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ struct PlanOptions {
     std::string config, format = "text";
     ConfigOverrides overrides;
     std::optional<int> frame;
+    std::string frames;
     bool measure = false;
     SessionOptions session;
 };
@@ -24,6 +26,14 @@ struct PlanOptions {
 ExitCode runPlan(const PlanOptions& options) {
     const RenderConfig config = readRenderConfig(options.config, options.overrides);
     Session session(options.session);
+    if (!options.frames.empty()) {
+        const LoadedScene& loaded = session.load(config);
+        const std::vector<int> frames = options.frames == "all" ? framesOf(config, "", loaded.scene.frames)
+                                                                : framesOf(config, options.frames, loaded.scene.frames);
+        const auto changes = compareFrames(config, loaded, frames);
+        fmt::print("{}", options.format == "json" ? frameChangesJson(changes) : frameChangesText(changes));
+        return ExitCode::done;
+    }
     const int frame = options.frame.value_or(session.load(config).scene.firstFrame());
     std::vector<double> milliseconds;
     if (options.measure) {
@@ -84,6 +94,10 @@ void addPlan(CLI::App& app, Chosen& chosen) {
         ->check(CLI::Range(0, 10));
     addUpOption(*command, options->overrides.meshFile);
     command->add_option("--frame", options->frame, "Frame to plan; the first declared one without it")->type_name("N");
+    command
+        ->add_option("--frames", options->frames,
+            "What each of these frames reads, makes and draws, and why: 1-100, or all that the scene declares")
+        ->type_name("SPEC|all");
     command->add_option("--format", options->format, "text, json or dot")
         ->check(CLI::IsMember({"text", "json", "dot"}));
     command->add_flag("--measure", options->measure, "Draw a frame and add the milliseconds of each pass");

@@ -75,7 +75,8 @@ limn=$!
 trap 'kill -TERM $limn' TERM INT
 wait $limn
 code=$?
-# 74: disk full or an I/O error, 75: failed for the moment, above 128: killed. What is drawn is kept: again, but not for ever.
+# 74: disk full or an I/O error, 75: failed for the moment, above 128: killed. What is drawn is kept: again, but not
+# for ever.
 if [ $code -ge 74 ] && [ $code -ne 77 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {retries} ]; then
   scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID" && sleep 60
 fi
@@ -113,12 +114,12 @@ std::pair<std::string, std::string> submitSlurm(const FarmScripts& scripts) {
 }
 
 std::string_view farmRecipes() {
-    return R"(Frames on many machines: every worker runs limn render with --resume and a part of the frames. No worker locks
-anything: files are complete or absent, two workers on one frame do no harm, and --resume keeps what is complete
-and current. Exit codes: 0 all asked frames are on disk; 74, 75 and death by a signal are worth another try; 33
-wants more memory; 64 to 66 fail again.
+    return R"(Frames on many machines: every worker runs limn render with --resume and a part of the frames. No worker locks anything:
+files are complete or absent, two workers on one frame do no harm, and --resume keeps what is complete and current.
+Exit codes: 0 all asked frames are on disk; 74, 75 and death by a signal are worth another try; 33 wants more memory;
+64 to 66 fail again.
 
-GNU parallel (tested as a command; no daemon):
+GNU parallel (no daemon; untested):
   parallel --joblog log --retries 3 limn render walk.toml --resume --chunk {}/40 ::: $(seq 40)
   parallel --joblog log --resume-failed limn render walk.toml --resume --chunk {}/40 ::: $(seq 40)
   limn render walk.toml --resume                       # looks at every frame, and makes the film

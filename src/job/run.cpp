@@ -154,7 +154,7 @@ private:
         const auto task = std::make_shared<FrameTask>(FrameTask{FrameWriter(files, job.config.output.encode, height),
             {path, frame, FrameOutcome::drawn, {}, 0, {}}, done_ == 0 ? start_ : Clock::now()});
         const ContentKey pixels = several ? session_.pixelsKey(job.config, frame) : ContentKey();
-        if (several && pixels == last_.pixels && !last_.bands.empty()) {
+        if (several && job.config.image.shutter == 0 && pixels == last_.pixels && !last_.bands.empty()) {
             repeat(job, frame, task);
         } else {
             last_ = {pixels, {}};

@@ -3,6 +3,10 @@
 
 #include "render/pipeline.h"
 
+#include <span>
+#include <string>
+#include <vector>
+
 namespace limn {
 
 struct PlanReport {
@@ -13,5 +17,20 @@ struct PlanReport {
 
 /// Plans a frame. `maxTextureSize` is the driver's.
 PlanReport reportPlan(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize = 16384);
+
+/// What a frame needs that the one before it did not leave behind.
+struct FrameChange {
+    int frame = 1;
+    bool isSame = false;               ///< its pixels are the last frame's
+    std::vector<std::string> reasons;  ///< "the camera moves", "2 of 14 objects move" ...
+    std::vector<std::string> files;    ///< mesh files that are read for it
+    std::size_t meshesMade = 0;        ///< turned into triangles
+};
+
+/// Compares the frames of a run, in its order: what is read, made and drawn for each, and why. Reads what they read.
+std::vector<FrameChange> compareFrames(
+    const RenderConfig& config, const LoadedScene& loaded, std::span<const int> frames);
+std::string frameChangesText(const std::vector<FrameChange>& changes);
+std::string frameChangesJson(const std::vector<FrameChange>& changes);
 
 }  // namespace limn

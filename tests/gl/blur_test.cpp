@@ -78,8 +78,8 @@ TEST(Blur, aMovingCameraBlursAsMuchAsAMovingWorld) {
 TEST(Blur, linesBlurToo) {
     // Ink per row is what the lines' width says, wherever it goes.
     const std::string lines =
-        "samples = 32\nline_samples = 32\nbackground = '#ffffff'\n[[edges]]\ntechnique = 'depth_normal'\nwidth = '3px'\n"
-        "color = '#000000'\n";
+        "samples = 32\nline_samples = 32\nbackground = '#ffffff'\n[[edges]]\ntechnique = 'depth_normal'\n"
+        "width = '3px'\ncolor = '#000000'\n";
     const auto ink = [&](const std::string& shutter) {
         const Picture picture = draw(makeConfig("[image]\nsize = [64, 64]\n" + shutter + lines),
             makeScene(movingCard(0.25), {{"card.obj", kCard}}), {}, 10);

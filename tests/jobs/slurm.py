@@ -135,9 +135,8 @@ def draw(cluster, runs, place):
     ended = time.monotonic() + 300
     while cluster.ask("squeue", "-h", "-j", job + "," + last) and time.monotonic() < ended:
         time.sleep(1)
-    logs = {
-        name: open(os.path.join(folder, "logs", name)).read() for name in sorted(os.listdir(os.path.join(folder, "logs")))
-    }
+    said = os.path.join(folder, "logs")
+    logs = {name: open(os.path.join(said, name)).read() for name in sorted(os.listdir(said))}
     assert time.monotonic() < ended, cluster.ask("squeue") + str(logs)
     assert hashes(out(config)) == whole, str(logs)
     assert os.path.exists(os.path.join(place, "failed-2")) and os.path.exists(os.path.join(place, "failed-5"))
