@@ -16,6 +16,9 @@ layout(binding = 12) uniform usamplerBuffer words;
 layout(binding = 13) uniform usamplerBuffer instances;  // twelve texels per instance; see below
 layout(binding = 14) uniform samplerBuffer materials;   // six texels per material
 
+// Three texels per instance: rows of the matrix from the mesh to the previous frame's pixels, times w, and w.
+layout(binding = 16) uniform samplerBuffer previousPlaces;
+
 const int INSTANCE_TEXELS = 12;
 const uint NO_WORDS = 0xffffffffu;
 
@@ -55,6 +58,16 @@ vec3 viewFromMesh(uint number, vec3 point) {
     vec4 p = vec4(point, 1.0);
     return vec3(dot(uintBitsToFloat(texelFetch(instances, at)), p),
         dot(uintBitsToFloat(texelFetch(instances, at + 1)), p), dot(uintBitsToFloat(texelFetch(instances, at + 2)), p));
+}
+
+// The pixel in which a point of the mesh was seen in the frame before, from the picture's lower left; `otherwise` where
+// it was not in front of the camera, or not there.
+vec2 previousPixel(uint number, vec3 point, vec2 otherwise) {
+    int at = int(number) * 3;
+    vec4 p = vec4(point, 1.0);
+    float w = dot(texelFetch(previousPlaces, at + 2), p);
+    vec2 pixel = vec2(dot(texelFetch(previousPlaces, at), p), dot(texelFetch(previousPlaces, at + 1), p));
+    return w > 0.0 ? pixel / w : otherwise;
 }
 
 // Its inverse, in double precision: rows of a 3×4 matrix.

@@ -28,7 +28,8 @@ enum Unit {
     wordsUnit,
     instancesUnit,
     materialsUnit,
-    atlasUnit
+    atlasUnit,
+    previousUnit
 };
 constexpr int kLightsBinding = 2;
 
@@ -470,6 +471,34 @@ void GpuScene::setView(const SceneAt& scene, const View& view) {
     if (has(needs_, SceneData::lights)) put(lights_, lightBytes(scene, view), "lights");
 }
 
+void GpuScene::setPrevious(const SceneAt& scene, const SceneAt& previous, const View& view) {
+    std::map<std::size_t, const DrawInstance*> before;
+    for (const auto& instance : previous.instances) before[instance.source] = &instance;
+    std::vector<glm::vec4> rows;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const auto known = before.find(scene.instances[i].source);
+        if (known == before.end()) {
+            rows.resize(rows.size() + 3);  // w = 0: it was not there
+            continue;
+        }
+        const auto [linear, pivot] = placementOf(*known->second, shown_[i]->place.pivot, view);
+        const glm::dmat3 byRow = glm::transpose(linear);
+        const glm::dvec4 x(byRow[0], pivot.x), y(byRow[1], pivot.y), depth(-byRow[2], -pivot.z);
+        // A ray's xy at unit depth is pixel * scale + offset (picture/view.h).
+        const glm::dvec4 w = view.orthographic ? glm::dvec4(0, 0, 0, 1) : depth;
+        rows.emplace_back((x - view.rayOffset.x * w) / view.rayScale.x);
+        rows.emplace_back((y - view.rayOffset.y * w) / view.rayScale.y);
+        rows.emplace_back(w);
+    }
+    if (rows.empty()) rows.resize(3);
+    const auto bytes = bytesOf(rows);
+    if (!previous_ || previous_.size() != bytes.size())
+        previous_ = gl::Buffer(bytes, "previous places");
+    else
+        previous_.write(bytes);
+    previousView_ = gl::BufferView(previous_, gl::Element::float4, "previous places");
+}
+
 void GpuScene::bind() const {
     if (!has(needs_, SceneData::positions)) return;
     positionsView_.bind(positionsUnit);
@@ -481,6 +510,7 @@ void GpuScene::bind() const {
     if (triangleNormalsView_) triangleNormalsView_.bind(triangleNormalsUnit);
     if (triangleUvsView_) triangleUvsView_.bind(triangleUvsUnit);
     if (materialsView_) materialsView_.bind(materialsUnit);
+    if (previousView_) previousView_.bind(previousUnit);
     if (lights_) lights_.bindUniform(kLightsBinding);
     if (atlas_.texture()) atlas_.texture().bindSampler(atlasUnit);
 }

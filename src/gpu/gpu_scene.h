@@ -37,6 +37,9 @@ public:
     /// Recomputes the data that depends on the camera: instance transforms in double precision, lights.
     void setView(const SceneAt& scene, const View& view);
 
+    /// Where the instances were seen a frame earlier, for SceneData::previous; `view` is that frame's.
+    void setPrevious(const SceneAt& scene, const SceneAt& previous, const View& view);
+
     void bind() const;
     void draw() const;  ///< every instance, in scene order
 
@@ -92,10 +95,10 @@ private:
     std::size_t recordWords_ = 0;                ///< the number of words that are line records
     std::vector<std::uint32_t> materialTables_;  ///< of each instance: where its table begins
     std::vector<int> generations_;               ///< of the arenas behind the views below
-    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_;
+    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_, previous_;
     std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,
-        wordsView_, instancesView_, materialsView_;
+        wordsView_, instancesView_, materialsView_, previousView_;
     TextureAtlas atlas_;
     gl::VertexArray vertexArray_;
     std::vector<gl::VertexInput> inputs_;

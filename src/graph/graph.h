@@ -48,7 +48,8 @@ enum class SceneData : unsigned {
     rays = 128,
     colors = 256,
     marks = 512,
-    coincidence = 1024
+    coincidence = 1024,
+    previous = 2048
 };
 constexpr SceneData operator|(SceneData a, SceneData b) {
     return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

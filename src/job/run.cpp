@@ -27,7 +27,8 @@ struct FrameTask {
     FrameWriter writer;
     Statistics::Frame report;
     Clock::time_point begun;
-    bool isBroken = false;  ///< an earlier step failed
+    bool isBroken = false;    ///< an earlier step failed
+    bool hasFlicker = false;  ///< its change from the frame before is measured
 };
 using SharedTask = std::shared_ptr<FrameTask>;
 
@@ -109,7 +110,7 @@ private:
             log::error("{}", error.message);
             if (failed_++ == 0) firstFailure_ = error.code;
         }
-        statistics_.add({path, frame, FrameOutcome::failed, {}, 0, errors.front().message});
+        statistics_.add({path, frame, FrameOutcome::failed, {}, 0, errors.front().message, {}});
         return false;
     }
 
@@ -147,12 +148,12 @@ private:
         progress_.begin(path.string());
         if (options_.resume && areCurrent(files, session_.identify(job.config, frame, job.crop).metadata)) {
             log::info("Kept: '{}' is complete and current", path.string());
-            statistics_.add({path, frame, FrameOutcome::kept, {}, 0, {}});
+            statistics_.add({path, frame, FrameOutcome::kept, {}, 0, {}, {}});
             return endFrame(false);
         }
         const int height = job.crop.size.x > 0 ? job.crop.size.y : job.config.image.size.y;
         const auto task = std::make_shared<FrameTask>(FrameTask{FrameWriter(files, job.config.output.encode, height),
-            {path, frame, FrameOutcome::drawn, {}, 0, {}}, done_ == 0 ? start_ : Clock::now()});
+            {path, frame, FrameOutcome::drawn, {}, 0, {}, {}}, done_ == 0 ? start_ : Clock::now()});
         const ContentKey pixels = several ? session_.pixelsKey(job.config, frame) : ContentKey();
         if (several && job.config.image.shutter == 0 && pixels == last_.pixels && !last_.bands.empty()) {
             repeat(job, frame, task);
@@ -174,7 +175,8 @@ private:
     void repeat(const Job& job, int frame, const SharedTask& task) {
         task->report.outcome = FrameOutcome::same;
         const Metadata metadata = session_.identify(job.config, frame, job.crop).metadata;
-        for (const auto& band : last_.bands) post(task, [task, band, metadata] { task->writer.add(*band, metadata); });
+        for (const auto& band : last_.bands)
+            post(task, [this, task, band, metadata] { encode(*task, *band, metadata); });
     }
 
     void drawNew(const Job& job, int frame, std::optional<int> next, bool several, const SharedTask& task) {
@@ -195,7 +197,7 @@ private:
                 last_.bands.push_back(band);
             else
                 last_.bands.clear();
-            post(task, [task, band] { task->writer.add(*band, band->metadata); });
+            post(task, [this, task, band] { encode(*task, *band, band->metadata); });
         };
         wanted.onProgress = [&](double share) {
             progress_.reach(share);
@@ -218,10 +220,18 @@ private:
     void post(const SharedTask& task, std::function<void()> step) {
         behind_.post([this, task, step = std::move(step)] {
             if (!task->isBroken) task->isBroken = !attempt(task->report.file, task->report.frame, step);
+            if (task->isBroken) flicker_ = {};
         });
     }
 
+    void encode(FrameTask& task, const RenderedFrame& band, const Metadata& metadata) {
+        task.writer.add(band, metadata);
+        task.hasFlicker = !options_.stats.empty() && Flicker::canBeSeen(band.layers);
+        if (task.hasFlicker) flicker_.add(band.layers);
+    }
+
     void finish(FrameTask& task) {
+        if (task.hasFlicker) task.report.flicker = flicker_.endFrame();
         const auto writeStart = Clock::now();
         const auto files = task.writer.finish();
         task.report.parts.push_back({"write", since(writeStart)});
@@ -242,6 +252,7 @@ private:
     Session session_;
     Statistics statistics_;
     Progress progress_;
+    Flicker flicker_;  ///< of the thread that encodes
     LastFrame last_;
     std::string deviceName_;
     double deviceMilliseconds_ = 0, loadMilliseconds_ = 0;  ///< since the run began

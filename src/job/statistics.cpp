@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace limn {
 namespace {
 
@@ -25,22 +27,35 @@ void Statistics::add(const Frame& frame) {
     for (const auto& part : frame.parts)
         times += fmt::format("{}{}: {:.2f}", times.empty() ? "" : ", ", jsonText(part.name), part.milliseconds);
     const auto outcome = static_cast<std::size_t>(frame.outcome);
+    std::string more = frame.problem.empty() ? "" : ", \"problem\": " + jsonText(frame.problem);
+    if (frame.flicker)
+        more += fmt::format(", \"flicker\": {{\"mean\": {:.4f}, \"p99\": {:.2f}, \"compared\": {:.4f}}}",
+            frame.flicker->mean, frame.flicker->p99, frame.flicker->compared);
     const std::lock_guard lock(mutex_);
+    if (frame.flicker) {
+        ++flickerCount_;
+        flickerSum_ += frame.flicker->mean;
+        flickerLargest_ = std::max(flickerLargest_, frame.flicker->mean);
+    }
     ++counts_[outcome];
     frames_ +=
         fmt::format("{}  {{\"file\": {}, \"frame\": {}, \"outcome\": \"{}\", \"parts\": {{{}}}, \"total\": {:.2f}{}}}",
             frames_.empty() ? "" : ",\n", jsonText(frame.file.string()), frame.frame, kOutcomes[outcome], times,
-            frame.total, frame.problem.empty() ? "" : ", \"problem\": " + jsonText(frame.problem));
+            frame.total, more);
 }
 
 std::string Statistics::json(const std::string& device, ExitCode exitCode, double seconds) const {
     const std::lock_guard lock(mutex_);
+    const std::string flicker = flickerCount_ == 0
+        ? ""
+        : fmt::format(" \"flicker\": {{\"mean\": {:.4f}, \"largest\": {:.4f}}},\n",
+            flickerSum_ / static_cast<double>(flickerCount_), flickerLargest_);
     return fmt::format(
         "{{\"version\": {}, \"limn\": {}, \"device\": {}, \"exit_code\": {}, \"seconds\": {:.2f}, \"peak_memory\": "
         "{},\n"
-        " \"drawn\": {}, \"same\": {}, \"kept\": {}, \"failed\": {},\n \"frames\": [\n{}\n]}}\n",
+        " \"drawn\": {}, \"same\": {}, \"kept\": {}, \"failed\": {},\n{} \"frames\": [\n{}\n]}}\n",
         kFormatVersion, jsonText(fmt::format("limn {}", kVersion)), jsonText(device), static_cast<int>(exitCode),
-        seconds, peakMemory(), counts_[0], counts_[1], counts_[2], counts_[3], frames_);
+        seconds, peakMemory(), counts_[0], counts_[1], counts_[2], counts_[3], flicker, frames_);
 }
 
 }  // namespace limn

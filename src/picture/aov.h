@@ -75,6 +75,13 @@ inline const Aov objectId{"object_id", Format::r32ui, {"id"}, AovKind::numbers, 
 inline const Aov materialId{"material_id", Format::r32ui, {"id"}, AovKind::numbers, AovUse::centre,
     "Number of the material, from 1; 0 on the background."};
 
+inline const Aov motion{"motion", Format::rg32f, {"X", "Y"}, AovKind::numbers, AovUse::centre,
+    "How far the visible point has come in the picture since the frame before, in pixels to the right and up, by the "
+    "motion of its object and the camera (what a mesh with a file per frame does within itself is not in it); zero on "
+    "the "
+    "background.",
+    "exact"};
+
 inline const Aov lineRecord{"line_record", Format::r32ui, {"id"}, AovKind::numbers, AovUse::betweenPasses,
     "Number of what the object or its material says about its lines; 0 for nothing."};
 inline const Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, AovKind::numbers,

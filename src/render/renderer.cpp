@@ -284,6 +284,13 @@ void Renderer::moveTo(Frame& frame, const TilePipelines& pipelines, double time)
     bringScene(frame, pipelines, times);
 }
 
+void Renderer::setView(const Frame& frame, const View& view, const ViewRequest& request) {
+    gpuScene_.setView(frame.scene, view);
+    if (frame.previous)
+        gpuScene_.setPrevious(
+            frame.scene, *frame.previous, makeView(frame.previous->camera, frame.previous->info, request));
+}
+
 void Renderer::drawSamples(
     Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options) {
     const Pipeline& pipeline = pipelines.averaged;
@@ -295,7 +302,7 @@ void Renderer::drawSamples(
         if (request.isBlurred)
             moveTo(frame, pipelines, frame.number + frame.config.image.shutter * pipelines.sampling.timeOf(sample));
         const View view = makeView(frame.scene.camera, frame.scene.info, request);
-        gpuScene_.setView(frame.scene, view);
+        setView(frame, view, request);
         executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
         tellProgress(frame, options, sample + 1, pipelines.sampling.samples());
     }
@@ -333,7 +340,8 @@ std::vector<Image> Renderer::drawTile(
     if (pipelines.centre) {
         if (pipelines.averagedView.isBlurred) moveTo(frame, pipelines, frame.number);
         executor_.resetMeasurements();
-        gpuScene_.setView(frame.scene, pipelines.centreView);
+        setView(frame, pipelines.centreView,
+            viewRequest(config, pipelines.centreView.sampling, frame.number, pipelines.guard, options.guard, tile));
         executor_.run(
             pipelines.centre->graph, pipelines.centre->plan, pipelines.centreView, gpuScene_, rayScene_.get(), false);
         collect(*pipelines.centre);
@@ -428,13 +436,18 @@ RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
     Stopwatch watch(result.times);
-    Frame frame{config, loaded, frameRequest(config, number), {}, {}, number, std::move(awaited_)};
+    Frame frame{config, loaded, frameRequest(config, number), {}, {}, {}, number, std::move(awaited_)};
     frame.scene = sceneAt(loaded, frame.request);
     frame.facts = sceneFacts(frame.scene);
     const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
     const TilePipelines pipelines = buildPipelines(
         config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
     checkShadows(frame.scene, loaded.scene.file);
+    if (has(pipelines.sceneData(), SceneData::previous)) {
+        FrameRequest before = frame.request;
+        before.frame = loaded.scene.frames && number > loaded.scene.frames->first ? number - 1 : number;
+        frame.previous = sceneAt(loaded, before);
+    }
     watch.lap("plan");
     bringScene(frame, pipelines, result.times);
     watch.lap("scene to the GPU");

@@ -13,6 +13,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -99,6 +100,7 @@ private:
         FrameRequest request;
         SceneAt scene;
         SceneFacts facts;
+        std::optional<SceneAt> previous;  ///< a frame earlier, where the plan asks
         int number;
         std::future<MadeMeshes> awaited;  ///< ends with the frame, even if that fails
         double tiles = 1, tilesDone = 0;
@@ -124,6 +126,8 @@ private:
     std::vector<Image> drawTile(Frame& frame, const Tile& tile, const RenderOptions& options, RenderedFrame& result);
     /// Tells RenderOptions::onProgress, at most twice a second.
     void tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples);
+    /// Tells the GPU what changes with the view.
+    void setView(const Frame& frame, const View& view, const ViewRequest& request);
     /// Brings the scene at another moment of the frame.
     void moveTo(Frame& frame, const TilePipelines& pipelines, double time);
     void drawSamples(Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);

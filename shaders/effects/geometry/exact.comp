@@ -62,6 +62,9 @@ void writeBackground() {
 #ifdef WRITES_position
     write_position(vec4(0));
 #endif
+#ifdef WRITES_motion
+    write_motion(vec4(0));
+#endif
 #ifdef WRITES_albedo
     write_albedo(vec4(0));
 #endif
@@ -88,7 +91,7 @@ void main() {
     Instance instance = instanceAt(number);
 
 #if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) \
-    || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
+    || defined(WRITES_motion) || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
     ivec3 corners =
         int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
     vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz,
@@ -117,6 +120,10 @@ void main() {
     dvec2 ray = centre * view.rayScaleExact + view.rayOffsetExact;
     vec3 inView = vec3(dvec3(ORTHOGRAPHIC ? ray : ray * depthHere, -depthHere));
     write_position(vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
+#endif
+#ifdef WRITES_motion
+    vec2 was = previousPixel(number, p0 + weights.x * (p1 - p0) + weights.y * (p2 - p0), vec2(centre));
+    write_motion(vec4(vec2(centre) - was, 0, 0));
 #endif
 #if defined(WRITES_normal) || defined(WRITES_normal_geometric)
     // The plane's normal by the mesh's winding. Surfaces have two sides; the one that faces the eye is visible.

@@ -31,6 +31,9 @@ void build(EffectBuilder& graph, const NoParams&) {
     resolve.name = "resolve";
     resolve.reads = {{"visibility", visibility}};
     resolve.writes = publishSurfaces(graph);
+    const ResourceId motion = graph.image(aov::motion);
+    resolve.writes.push_back({std::string(aov::motion.name), motion, SceneData::previous});
+    graph.publish(aov::motion, motion);
     resolve.defines = surfaceDefines(graph);
     graph.defineSeen(resolve);
     resolve.needs = SceneData::positions;
