@@ -47,8 +47,8 @@ file = {1}
 # rotate = [0, 30, 0]        # degrees, about x, then y, then z
 # scale = [1, 1, 1]
 
-# A turntable: these lines, and in the instance above  rotate = {{ keys = [[1, [0, 0, 0]], [121, [0, 360, 0]]] }}
-# (with up = "z": [0, 0, 360]). The config's output.path then needs #### for the number of the frame. More about it:
+# A turntable: these lines, and in the camera below  orbit = {{ keys = [[1, 0], [121, 360]] }}. The config's output.path
+# then needs #### for the number of the frame. More about it:
 # limn techniques frames
 # [animation]
 # frames = "1-120"

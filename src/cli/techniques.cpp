@@ -74,15 +74,22 @@ constexpr std::string_view kFrames = R"(frames
 
     What "may be keyed" takes keyframes in place of a value, each of a frame and a value:
         translate = { keys = [[1, [0, 0, 0]], [24, [2, 0, 0]]], interpolation = "linear" }
-    interpolation is linear (without it), constant or smooth. Before the first keyframe and after the last its value
-    stays. --set replaces all of them by one value.
+    or one of its numbers: translate = { x = { keys = [[1, 0], [24, 2]] } }; colours have r, g and b.
+    interpolation is linear (without it), constant, smooth, spline (through all keys without corners) or bezier, with
+    handles as animation programs have them: [frame, value, [left frame, value], [right frame, value]].
+    beyond, before the first keyframe and after the last: hold (without it), linear, repeat, offset (again, moved on by
+    what a round brings) or mirror. --set replaces all of them by one value.
+
+    Instances, [[node]]s (places without a mesh), cameras and lights may have a parent, and move with it. A mesh with
+    numbered files may say which of them a frame shows: sequence = { first = 1, last = 24, ends = "loop" }.
 
     A turntable of 120 frames, of which the last goes on with the first:
         [animation]
         frames = "1-120"
-        [[instance]]
-        mesh = "chair"
-        rotate = { keys = [[1, [0, 0, 0]], [121, [0, 360, 0]]] }
+        [[camera]]
+        position = [0, 1.6, 5]
+        look_at = [0, 0.8, 0]
+        orbit = { keys = [[1, 0], [121, 360]] }
 )";
 
 std::string jsonOf(const Technique& technique) {

@@ -316,12 +316,14 @@ void drawElements(const Buffer& commands, int count) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, count, sizeof(DrawCommand));
 }
-PulledForward::PulledForward(float pixels, float roundings, bool facing) {
+PushedBack::PushedBack(float pixels, float roundings, Facing facing) {
     glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(pixels, roundings);  // nearer depths are larger
-    if (facing) glEnable(GL_CULL_FACE);
+    glPolygonOffset(-pixels, -roundings);  // nearer depths are larger
+    if (facing == Facing::any) return;
+    glEnable(GL_CULL_FACE);
+    glCullFace(facing == Facing::front ? GL_BACK : GL_FRONT);
 }
-PulledForward::~PulledForward() {
+PushedBack::~PushedBack() {
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_CULL_FACE);
 }

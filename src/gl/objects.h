@@ -210,14 +210,17 @@ struct DrawCommand {
 
 enum class DepthTest { none, greater };
 
-/// Moves what is drawn towards the eye while this lives: by how much its depth changes over `pixels`, and by
-/// `roundings` of the depth buffer. `facing`: leaves out what does not face the eye.
-class PulledForward {
+/// Triangles by the side that they turn to the eye.
+enum class Facing { any, front, back };
+
+/// Moves what is drawn away from the eye while this lives: by how much its depth changes over `pixels`, and by
+/// `roundings` of the depth buffer. Draws only what faces the eye so.
+class PushedBack {
 public:
-    PulledForward(float pixels, float roundings, bool facing);
-    ~PulledForward();
-    PulledForward(const PulledForward&) = delete;
-    PulledForward& operator=(const PulledForward&) = delete;
+    PushedBack(float pixels, float roundings, Facing facing);
+    ~PushedBack();
+    PushedBack(const PushedBack&) = delete;
+    PushedBack& operator=(const PushedBack&) = delete;
 };
 
 /// Drawing touches nothing outside a rectangle while this lives.

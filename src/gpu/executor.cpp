@@ -232,14 +232,15 @@ void Executor::drawSeen(const View& view, GpuScene& scene, int raster, const gl:
         const gl::Scissor scissor((view.region.origin - view.canvas.origin) * raster, view.region.size * raster);
         what();
     };
-    if (!depth || !scene.isCullable()) {
-        draw([&] { scene.draw(); });
+    if (!depth) return draw([&] { scene.draw(); });
+    if (!scene.isCullable()) {
+        draw([&] { scene.drawAlone(); });
     } else {
         draw([&] { scene.drawSeen(nullptr); });
         const FarthestDepths farthest = farthestDepths(*depth);
         draw([&] { scene.drawSeen(&farthest); });
     }
-    if (depth) draw([&] { scene.drawCoincident(); });
+    draw([&] { scene.drawCoincident(); });
 }
 
 FarthestDepths Executor::farthestDepths(const gl::Texture& depth) {

@@ -144,6 +144,19 @@ bool putChanged(gl::Buffer& buffer, std::vector<std::byte>& known, std::span<con
     return isNew;
 }
 
+/// Removes these triangles (ascending) from a list of corners. The last corner is a triangle's number.
+void leaveOut(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& corners) {
+    if (triangles.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+        if (std::binary_search(triangles.begin(), triangles.end(), corners[i + 2])) continue;
+        std::copy_n(
+            corners.begin() + static_cast<std::ptrdiff_t>(i), 3, corners.begin() + static_cast<std::ptrdiff_t>(kept));
+        kept += 3;
+    }
+    corners.resize(kept);
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const gl::Limits& limits, bool isSoftware) : limits_(limits), isSoftware_(isSoftware) {}
@@ -285,16 +298,27 @@ void GpuScene::putTables(const SceneAt& scene) {
 }
 
 void GpuScene::putCommands() {
-    std::vector<gl::DrawCommand> commands;
+    std::vector<gl::DrawCommand> commands, alone;
     std::vector<std::uint32_t> numbers;
     for (const Resident* resident : shown_) {
         const MeshPlace& place = resident->place;
         const auto number = static_cast<std::uint32_t>(numbers.size());
-        commands.push_back({place.triangleCount * 3, 1, place.firstTriangle * 3,
-            static_cast<std::int32_t>(place.firstVertex), number});
         numbers.push_back(number);
+        const auto run = [&](std::uint32_t from, std::uint32_t to) {
+            return gl::DrawCommand{(to - from) * 3, 1, (place.firstTriangle + from) * 3,
+                static_cast<std::int32_t>(place.firstVertex), number};
+        };
+        commands.push_back(run(0, place.triangleCount));
+        std::uint32_t from = 0;
+        for (const std::uint32_t triangle : coincident_.drawnHere(number)) {
+            if (triangle > from) alone.push_back(run(from, triangle));
+            from = triangle + 1;
+        }
+        if (place.triangleCount > from) alone.push_back(run(from, place.triangleCount));
     }
     putChanged(commands_, commandBytes_, bytesOf(commands), "draw commands");
+    aloneCount_ = static_cast<int>(alone.size());
+    if (!alone.empty()) putChanged(aloneCommands_, aloneBytes_, bytesOf(alone), "draw commands");
     if (putChanged(instanceNumbers_, numberBytes_, bytesOf(numbers), "instance numbers")) generations_.clear();
 }
 
@@ -378,9 +402,9 @@ void GpuScene::update(
             "remove some");
     putMeshes(meshOf, made);
     putTables(scene);
+    if (has(needs_, SceneData::coincidence)) putCoincident(scene, meshOf);
     putCommands();
     if (has(needs_, SceneData::marks)) putMarks(scene);
-    if (has(needs_, SceneData::coincidence)) putCoincident(scene, meshOf);
     connect();
     if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
     if (has(needs_, SceneData::materials)) putMaterials(scene);
@@ -520,6 +544,11 @@ void GpuScene::draw() const {
     gl::drawElements(commands_, static_cast<int>(shown_.size()));
 }
 
+void GpuScene::drawAlone() const {
+    vertexArray_.bind();
+    if (aloneCount_ > 0) gl::drawElements(aloneCommands_, aloneCount_);
+}
+
 void GpuScene::drawSeen(const FarthestDepths* farthest) {
     const gl::Mapping positions(positions_.buffer()), indices(triangles_.buffer());
     const TriangleSource source{
@@ -550,6 +579,7 @@ void GpuScene::drawSeen(const FarthestDepths* farthest) {
         },
         [&](std::size_t i) {
             auto& part = parts_[i];
+            leaveOut(coincident_.drawnHere(static_cast<std::uint32_t>(part.instance)), part.indices);
             if (part.indices.empty()) return;
             const auto first = static_cast<std::int32_t>(shown_[part.instance]->place.firstVertex);
             commands.push_back({static_cast<std::uint32_t>(part.indices.size()), 1,

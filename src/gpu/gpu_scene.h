@@ -41,7 +41,8 @@ public:
     void setPrevious(const SceneAt& scene, const SceneAt& previous, const View& view);
 
     void bind() const;
-    void draw() const;  ///< every instance, in scene order
+    void draw() const;       ///< every instance, in scene order
+    void drawAlone() const;  ///< the same, but for drawCoincident()
 
     /// The lines that the last scene draws itself.
     std::span<const Mark> marks() const { return marks_; }
@@ -51,7 +52,7 @@ public:
     /// Draws the visible triangles in the last view's region: those that face the camera, or then, with `farthest`, the
     /// others (gpu/culling.h).
     void drawSeen(const FarthestDepths* farthest);
-    /// Draws the faces again that must be visible before others in the same plane; in place after all others.
+    /// Draws the faces that share a plane with others: drawAlone() and drawSeen() leave them out.
     void drawCoincident() const { coincident_.draw(inputs_); }
 
 private:
@@ -85,6 +86,7 @@ private:
 
     gl::Limits limits_;
     bool isSoftware_, isCullable_ = false;
+    int aloneCount_ = 0;    ///< of aloneCommands_
     bool isReady_ = false;  ///< the last update succeeded: the held data is whole
     SceneData needs_ = SceneData::none;
     std::map<ContentKey, Resident> residents_;
@@ -95,8 +97,8 @@ private:
     std::size_t recordWords_ = 0;                ///< the number of words that are line records
     std::vector<std::uint32_t> materialTables_;  ///< of each instance: where its table begins
     std::vector<int> generations_;               ///< of the arenas behind the views below
-    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_, previous_;
-    std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_;
+    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_, previous_, aloneCommands_;
+    std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_, aloneBytes_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,
         wordsView_, instancesView_, materialsView_, previousView_;
     TextureAtlas atlas_;

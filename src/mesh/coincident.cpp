@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace limn {
@@ -305,10 +306,10 @@ private:
     double size_ = 0, near_ = 0;  ///< of the scene; below this two points are one
 };
 
-/// What is known of a triangle that wins over another.
+/// What is known of a triangle that overlaps another.
 struct Standing {
     int level = 0;
-    bool facing = false;
+    bool isOpposed = false;  ///< another one turns its back here where this one turns its front
 };
 
 }  // namespace
@@ -316,27 +317,31 @@ struct Standing {
 std::vector<CoincidentTriangle> findCoincident(std::span<const PlacedTriangles> meshes) {
     const Finder finder(meshes);
     const std::vector<Pair> pairs = finder.pairs();
-    // Later triangles come first: their levels are settled when those before them look.
     std::map<std::uint32_t, Standing> standings;
     for (const Pair& pair : pairs)
-        if (!pair.alike) standings[pair.first].facing = standings[pair.second].facing = true;
-    for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair) {
-        if (!pair->alike) continue;
-        const auto later = standings.find(pair->second);
-        const Standing below = later == standings.end() ? Standing() : later->second;
-        Standing& above = standings[pair->first];
-        above.level = std::max(above.level, std::min(below.level + 1, kMostLevels));
-        above.facing = above.facing || below.facing;
+        if (!pair.alike) standings[pair.first].isOpposed = standings[pair.second].isOpposed = true;
+    // Earlier triangles come first: their levels are settled when those after them look.
+    int highest = 0;
+    for (const Pair& pair : pairs) {
+        if (!pair.alike) continue;
+        const Standing above = standings[pair.first];
+        Standing& below = standings[pair.second];
+        below.level = std::max(below.level, std::min(above.level + 1, kMostLevels));
+        below.isOpposed = below.isOpposed || above.isOpposed;
+        highest = std::max(highest, below.level);
     }
-    int highest = 0;  // no higher than needed: each level moves a triangle a little further
-    for (const auto& [number, standing] : standings) highest = std::max(highest, standing.level);
     std::vector<CoincidentTriangle> found;
     for (const auto& [number, standing] : standings) {
         const std::uint32_t mesh = finder.meshOf(number), triangle = finder.triangleOf(number);
-        if (standing.level > 0) found.push_back({mesh, triangle, standing.level, false});
-        if (standing.facing) found.push_back({mesh, triangle, highest + 1 + standing.level, true});
+        if (standing.isOpposed) {
+            found.push_back({mesh, triangle, Side::front, standing.level});
+            found.push_back({mesh, triangle, Side::back, highest + 1 + standing.level});
+        } else if (standing.level > 0) {
+            found.push_back({mesh, triangle, Side::both, standing.level});
+        }
     }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
+    std::stable_sort(found.begin(), found.end(),
+        [](const auto& a, const auto& b) { return std::tie(a.side, a.level) < std::tie(b.side, b.level); });
     return found;
 }
 

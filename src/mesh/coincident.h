@@ -16,13 +16,14 @@ struct PlacedTriangles {
     glm::dmat4 worldFromMesh{1};             ///< from the units of `positions`
 };
 
-/// A triangle that must be seen in the place of others.
+/// Which side of a triangle faces the camera: counter-clockwise in the world is the front.
+enum class Side { both, front, back };
+
+/// A triangle that others in its plane must hide, seen from a side.
 struct CoincidentTriangle {
     std::uint32_t mesh = 0, triangle = 0;
-    int level = 0;  ///< from 1; of triangles that overlap, the one with the highest level is seen
-    /// It is so only where it faces the camera, counter-clockwise in the world: the others are the backs of sheets, or
-    /// the ground that a body stands on.
-    bool facing = false;
+    Side side = Side::both;
+    int level = 0;  ///< of triangles that overlap, the one with the lowest level is seen; those not listed have 0
     bool operator==(const CoincidentTriangle&) const = default;
 };
 
@@ -30,9 +31,10 @@ struct CoincidentTriangle {
 /// and files of six digits, cannot tell them apart.
 inline constexpr double kCoincidentDistance = 2e-6;
 
-/// The triangles that others must not hide: of those that turn the same side to the camera the first in order of meshes
-/// and triangles, and before all these the ones that face it. Sorted by facing, level, mesh and triangle. Parallel; a
-/// scene without such triangles costs a sort of their planes.
+/// The triangles that do not simply stay where they are: of those that turn the same side to the camera the first in
+/// the order of meshes and triangles is seen, and before all these the one that turns its front to it, since the others
+/// are the backs of sheets, or the ground that a body stands on. Sorted by side, level, mesh and triangle; one that
+/// must be drawn by sides is listed for each. Parallel; a scene without such triangles costs a sort of their planes.
 std::vector<CoincidentTriangle> findCoincident(std::span<const PlacedTriangles> meshes);
 
 /// How many triangles lie on an earlier one of the mesh, whole or in part.

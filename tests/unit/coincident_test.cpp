@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <algorithm>
+#include <cmath>
 
 namespace limn {
 namespace {
@@ -48,7 +48,7 @@ TEST(Coincident, copiesLieOnTheFirst) {
         const PlacedTriangles both[] = {sheet.placed(), sheet.placed()};
         const auto found = findCoincident(both);
         ASSERT_EQ(found.size(), 800u);
-        for (const auto& one : found) EXPECT_EQ(one, (CoincidentTriangle{0, one.triangle, 1, false}));
+        for (const auto& one : found) EXPECT_EQ(one, (CoincidentTriangle{1, one.triangle, Side::both, 1}));
     }
 }
 
@@ -56,8 +56,11 @@ TEST(Coincident, turnedCopiesLetTheOneThatFacesWin) {
     const Sheet front = grid(4), back = grid(4, 0, true);
     const PlacedTriangles both[] = {front.placed(), back.placed()};
     const auto found = findCoincident(both);
-    EXPECT_EQ(found.size(), 64u);
-    EXPECT_TRUE(std::all_of(found.begin(), found.end(), [](const auto& one) { return one.facing; }));
+    ASSERT_EQ(found.size(), 128u);
+    for (std::size_t i = 0; i < found.size(); ++i) {  // fronts stay where they are, backs are hidden
+        EXPECT_EQ(found[i].side, i < 64 ? Side::front : Side::back);
+        EXPECT_EQ(found[i].level, i < 64 ? 0 : 1);
+    }
 }
 
 TEST(Coincident, aPlaneBesideIsAnother) {
@@ -76,7 +79,7 @@ TEST(Coincident, aPlaneBesideIsAnother) {
 TEST(Coincident, aStackIsInTheOrderOfItsMeshes) {
     const Sheet sheet = grid(1);
     const PlacedTriangles stack[] = {sheet.placed(), sheet.placed(), sheet.placed()};
-    for (const auto& one : findCoincident(stack)) EXPECT_EQ(one.level, 2 - static_cast<int>(one.mesh));
+    for (const auto& one : findCoincident(stack)) EXPECT_EQ(one.level, static_cast<int>(one.mesh));
 }
 
 TEST(Coincident, movingAndScalingTheSceneChangesNothing) {
