@@ -114,10 +114,10 @@ std::pair<std::string, std::string> submitSlurm(const FarmScripts& scripts) {
 }
 
 std::string_view farmRecipes() {
-    return R"(Frames on many machines: every worker runs limn render with --resume and a part of the frames. No worker locks
-anything: files are complete or absent, two workers on one frame do no harm, and --resume keeps what is complete and
-current. Exit codes: 0 all asked frames are on disk; 74, 75 and death by a signal are worth another try; 33 wants more
-memory; 64 to 66 fail again.
+    return R"(Frames on many machines: every worker runs limn render with --resume and a part of the frames. No worker
+locks anything: files are complete or absent, two workers on one frame do no harm, and --resume keeps what is complete
+and current. Exit codes: 0 all asked frames are on disk; 74, 75 and death by a signal are worth another try; 33 wants
+more memory; 64 to 66 fail again.
 
 GNU parallel (no daemon; untested):
   parallel --joblog log --retries 3 limn render walk.toml --resume --chunk {}/40 ::: $(seq 40)
