@@ -18,7 +18,7 @@ import sys
 from array import array
 
 import bpy
-from mathutils import Matrix, Vector
+from mathutils import Euler, Matrix, Vector
 
 bl_info = {
     "name": "limn scenes",
@@ -641,6 +641,103 @@ def keyed(values, frames):
     return '{ keys = [%s], interpolation = "linear" }' % keys
 
 
+BEYOND = {"REPEAT": "repeat", "REPEAT_OFFSET": "offset", "MIRROR": "mirror"}
+
+
+def curve_text(curve, scale=1.0):
+    """An F-curve as limn's keys, or None where limn has none such. `scale` is of its values."""
+    points = sorted(curve.keyframe_points, key=lambda k: k.co[0])
+    kinds = {k.interpolation for k in points[:-1]} or {"CONSTANT"}
+    beyond = {"CONSTANT": "hold", "LINEAR": "linear"}[curve.extrapolation]
+    active = [m for m in curve.modifiers if not m.mute]
+    if len(active) == 1 and active[0].type == "CYCLES" and not active[0].use_restricted_range:
+        cycles = active[0]
+        if cycles.mode_before != cycles.mode_after or cycles.cycles_before or cycles.cycles_after:
+            return None
+        beyond = BEYOND.get(cycles.mode_after)
+    elif active:
+        return None
+    if len(kinds) > 1 or not kinds <= {"BEZIER", "LINEAR", "CONSTANT"} or beyond is None or not points:
+        return None
+    (kind,) = kinds
+    pair = lambda co: "[%.9g, %s]" % (co[0], number(co[1] * scale))
+    if kind == "BEZIER":
+        keys = [
+            "[%.9g, %s, %s, %s]"
+            % (
+                k.co[0],
+                number(k.co[1] * scale),
+                pair((min(k.handle_left[0], k.co[0]), k.handle_left[1])),
+                pair((max(k.handle_right[0], k.co[0]), k.handle_right[1])),
+            )
+            for k in points
+        ]
+    else:
+        keys = [pair(k.co) for k in points]
+    ends = "" if beyond == "hold" else ', beyond = "%s"' % beyond
+    return '{ keys = [%s], interpolation = "%s"%s }' % (", ".join(keys), kind.lower(), ends)
+
+
+def own_curves(obj, frames, matrices):
+    """The lines of an object that moves by its own F-curves alone, or None: then what they give has to be sampled."""
+    animation = obj.animation_data
+    if (
+        obj.library
+        or obj.parent
+        or obj.constraints
+        or obj.rigid_body
+        or obj.rotation_mode != "XYZ"
+        or animation is None
+        or animation.action is None
+        or animation.drivers
+        or animation.nla_tracks
+        or any(obj.delta_location)
+        or any(obj.delta_rotation_euler)
+        or tuple(obj.delta_scale) != (1.0, 1.0, 1.0)
+    ):
+        return None
+    values = {"location": obj.location, "rotation_euler": obj.rotation_euler, "scale": obj.scale}
+    curves = {}
+    for curve in animation.action.fcurves:
+        if curve.data_path in values and not curve.mute:
+            curves[curve.data_path, curve.array_index] = curve
+        elif curve.data_path.startswith("rotation") or curve.data_path.startswith("delta"):
+            return None
+    evaluate = lambda path, i, frame: curves[path, i].evaluate(frame) if (path, i) in curves else values[path][i]
+    # What the curves say must be what stands in the scene: nothing else moves the object.
+    for frame, matrix in zip(frames, matrices):
+        place, turn, size = (Vector([evaluate(path, i, frame) for i in range(3)]) for path in values)
+        again = Matrix.LocRotScale(place, Euler(turn, "XYZ"), size)
+        if any(abs(again[r][c] - matrix[r][c]) > 1e-5 * max(1.0, abs(matrix[r][c])) for r in range(3) for c in range(4)):
+            return None
+    lines = []
+    for path, key, scale in (
+        ("location", "translate", 1.0),
+        ("rotation_euler", "rotate", 180.0 / math.pi),
+        ("scale", "scale", 1.0),
+    ):
+        parts = []
+        for i, letter in enumerate("xyz"):
+            curve = curves.get((path, i))
+            text = curve_text(curve, scale) if curve else number(values[path][i] * scale)
+            if text is None:
+                return None
+            parts.append("%s = %s" % (letter, text))
+        if any((path, i) in curves for i in range(3)):
+            lines.append("%s = { %s }" % (key, ", ".join(parts)))
+        elif tuple(values[path]) != ((1.0,) * 3 if path == "scale" else (0.0,) * 3):
+            lines.append("%s = %s" % (key, vector([v * scale for v in values[path]])))
+    return lines
+
+
+def visible_line(shown, frames):
+    """The line that says when an object is there, or nothing where it always is."""
+    if all(shown):
+        return []
+    kept = [i for i in range(len(shown)) if i == 0 or shown[i] != shown[i - 1]]
+    return ["visible = { keys = [%s] }" % ", ".join("[%d, %s]" % (frames[i], str(shown[i]).lower()) for i in kept)]
+
+
 def unwrapped(angles):
     """Euler angles in degrees without jumps of a whole turn."""
     result = [list(angles[0])]
@@ -657,6 +754,7 @@ class Exporter:
         self.by_look = {}  # (hash of the OBJ without points, colours, subdivision) -> those that look so
         self.taken, self.taken_textures = set(), set()
         self.materials = {}  # identity of Blender's -> (name in the scene, lines)
+        self.moving_materials = {}  # identity -> (Blender's, its colour at each frame)
         self.taken_materials = set()
         self.plain = set()  # names of those that take no colours of vertices
         self.colored = False  # some mesh has them
@@ -710,7 +808,8 @@ class Exporter:
                 mesh = self.mesh_of(obj, cages, frame, frames, instance.is_instance)
                 if mesh:
                     world = instance.matrix_world.copy()
-                    tracks.setdefault(key, {"mesh": mesh, "matrices": {}})["matrices"][frame] = world
+                    own = None if instance.is_instance else original
+                    tracks.setdefault(key, {"mesh": mesh, "object": own, "matrices": {}})["matrices"][frame] = world
                     corners += [world @ Vector(corner) for corner in obj.bound_box]
             elif obj.type == "CAMERA" and not instance.is_instance:
                 cameras.setdefault(original.name, {})[frame] = camera_numbers(obj, depsgraph, width, height)
@@ -730,7 +829,21 @@ class Exporter:
                 lights.setdefault(name, {})[frame] = self.light_numbers(obj, instance.matrix_world.copy())
             elif obj.type not in {"EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "LIGHTPROBE"}:
                 self.left_out.add("object of a kind that has no surface", "%s (%s)" % (original.name, obj.type.lower()))
+        for material, colors in self.moving_materials.values():
+            colors[frame] = tuple(max(0.0, c) for c in base_color(material, LeftOut())[0])
         self.name_clipped(depsgraph, corners)
+
+    def move_materials(self, frames):
+        """Gives materials the keys of their colours. What else moves in them is said."""
+        for key, (material, by_frame) in self.moving_materials.items():
+            name, lines = self.materials[key]
+            first = by_frame[min(by_frame)]
+            colors = [by_frame.get(frame, first) for frame in frames]
+            has_image = any(line.startswith("texture = ") for line in lines)
+            if all(color == first for color in colors) or has_image:
+                self.left_out.add("keyed values of a material (the first frame's)", material.name)
+            else:
+                lines[2] = "color = " + keyed(colors, frames)
 
     def name_clipped(self, depsgraph, corners):
         """Cameras of Blender cut off what is nearer or farther than their clip distances."""
@@ -948,7 +1061,7 @@ class Exporter:
             lines.append("line_color = " + vector([max(0.0, c) for c in tuple(material.line_color)[:3]]))
         animated = [material.animation_data] + ([material.node_tree.animation_data] if material.node_tree else [])
         if self.animated and any(animated):
-            self.left_out.add("keyed values of a material (the first frame's)", material.name)
+            self.moving_materials[identity(material)] = (material.original, {})
         self.materials[identity(material)] = (name, lines)
         if color_attribute(material) is None:
             self.plain.add(name)
@@ -956,6 +1069,7 @@ class Exporter:
 
     # The files.
     def write(self, scene, frames, tracks, cameras, lights):
+        self.move_materials(frames)
         lines = [
             "# Written by limn's Blender exporter from %s: written anew by the next export."
             % quoted(os.path.basename(bpy.data.filepath) or "an unsaved file"),
@@ -1076,12 +1190,16 @@ class Exporter:
         for i, matrix in enumerate(matrices):
             matrices[i] = last = matrix if matrix is not None else last
         self.counts["instances"] += 1
-        if all(matrix == matrices[0] for matrix in matrices) and all(shown):
+        lines += visible_line(shown, frames)
+        if all(matrix == matrices[0] for matrix in matrices):
             if matrices[0] != Matrix.Identity(4):
                 lines.append(
                     "matrix = " + vector([matrices[0][row][column] for row in range(4) for column in range(4)])
                 )
             return lines + [""]
+        curves = own_curves(track["object"], frames, matrices) if track["object"] and all(shown) else None
+        if curves is not None:
+            return lines + curves + [""]
         parts = [matrix.decompose() for matrix in matrices]
         for matrix, (place, turn, size) in zip(matrices, parts):
             again = Matrix.LocRotScale(place, turn, size)
@@ -1095,9 +1213,7 @@ class Exporter:
             "rotate = "
             + keyed(unwrapped([tuple(math.degrees(a) for a in p[1].to_euler("XYZ")) for p in parts]), frames)
         )
-        # An object that is not there at a frame has no size there.
-        sizes = [tuple(p[2]) if is_shown else (0.0, 0.0, 0.0) for p, is_shown in zip(parts, shown)]
-        lines.append("scale = " + keyed(sizes, frames))
+        lines.append("scale = " + keyed([tuple(p[2]) for p in parts], frames))
         return lines + [""]
 
     def camera_entry(self, name, by_frame, frames):
