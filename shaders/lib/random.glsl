@@ -2,30 +2,13 @@
 //
 // Include after lib/space.glsl. Integer arithmetic only, so that every implementation agrees to the bit.
 
-// A 32-bit mix in which every input bit flips every output bit about half the time.
-uint mixBits(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
+#include "lib/bits.glsl"
 
 // [0, 1) with 24 bits.
 float unitFloat(uint x) { return float(x >> 8) * (1.0 / 16777216.0); }
 
 // Pixel of the whole picture (xy) and number of the sample within it (z).
 ivec3 sampleOf(ivec2 pixel) { return ivec3(pixel + view.origin / COARSENESS, view.sampleNumber); }
-
-// Bits of x at the even places, bits of y at the odd ones: squares of 2^n pixels share all but the last 2n bits.
-uint interleaved(uvec2 p) {
-    uvec2 v = p & 0xffffu;
-    v = (v | (v << 8)) & 0x00ff00ffu;
-    v = (v | (v << 4)) & 0x0f0f0f0fu;
-    v = (v | (v << 2)) & 0x33333333u;
-    v = (v | (v << 1)) & 0x55555555u;
-    return v.x | (v.y << 1);
-}
 
 // Two numbers in [0, 1) that are evenly spread over neighbouring pixels and over the samples of a pixel, without a
 // pattern that a filter could leave behind.
@@ -34,11 +17,17 @@ uint interleaved(uvec2 p) {
 // turned at random: the error of neighbours differs as much as it can, and its spectrum has no peaks (Ahmed & Wonka,
 // "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels", 2020). The
 // samples of a pixel shift its point by additive recurrences of the golden ratio and of its like in two dimensions.
+//
+// NOISE_ON_SURFACE: cells of the visible mesh take the place of pixels, so that noise moves along with what it lies on.
 vec2 evenlySpread(ivec2 pixel) {
     uvec3 s = uvec3(sampleOf(pixel));
     // The order at random: each bit of the place flips by a hash of the bits above it. (Laine & Karras 2011, with the
     // constants of Vegdahl; the first bit of the reversed place is its last.)
+#ifdef NOISE_ON_SURFACE
+    uint place = bitfieldReverse(load(surfacePlace, pixel * COARSENESS).r);
+#else
     uint place = bitfieldReverse(interleaved(s.xy));
+#endif
     place ^= place * 0x3d20adeau;
     place += mixBits(view.seed);
     place *= (mixBits(view.seed) >> 16) | 1u;

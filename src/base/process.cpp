@@ -59,6 +59,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, Output outpu
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
     const int failed = ::posix_spawn(&process_, program->c_str(), &actions, &attributes, arguments.data(), environ);

@@ -708,7 +708,8 @@ def own_curves(obj, frames, matrices):
     for frame, matrix in zip(frames, matrices):
         place, turn, size = (Vector([evaluate(path, i, frame) for i in range(3)]) for path in values)
         again = Matrix.LocRotScale(place, Euler(turn, "XYZ"), size)
-        if any(abs(again[r][c] - matrix[r][c]) > 1e-5 * max(1.0, abs(matrix[r][c])) for r in range(3) for c in range(4)):
+        places = [(r, c) for r in range(3) for c in range(4)]
+        if any(abs(again[r][c] - matrix[r][c]) > 1e-5 * max(1.0, abs(matrix[r][c])) for r, c in places):
             return None
     lines = []
     for path, key, scale in (

@@ -106,6 +106,16 @@ void EffectBuilder::defineSeen(Pass& pass) const {
     if (scene_.triangleBits > 0) pass.defines.emplace_back("TRIANGLE_BITS", std::to_string(scene_.triangleBits));
 }
 
+void EffectBuilder::seedNoise(Pass& pass) const {
+    if (!view_.noiseOnSurface) return;
+    const auto place = find(aov::surfacePlace);
+    if (!place)
+        throw Error(ExitCode::usage, {}, "image.seed = \"surface\" goes with the exact geometry only",
+            "leave accuracy out, or give image.seed a number");
+    pass.reads.push_back({"surfacePlace", *place});
+    pass.defines.emplace_back("NOISE_ON_SURFACE", "");
+}
+
 bool EffectBuilder::isUnified() const {
     return std::any_of(graph_.passes.begin(), graph_.passes.end(),
         [](const Pass& pass) { return has(pass.needs, SceneData::unifiedVertices); });

@@ -77,6 +77,9 @@ public:
     /// Tells the pass's shaders how the visibility buffer names triangles.
     void defineSeen(Pass& pass) const;
 
+    /// Gives the pass's shaders what shaders/lib/random.glsl reads; call last of all that adds reads. Throws Error.
+    void seedNoise(Pass& pass) const;
+
     /// Later passes belong to this technique, number `layer` of those in its slot.
     void beginTechnique(const Slot& slot, std::string_view technique, int layer = 0);
     /// Later passes belong to no slot's technique; `rate`: see picture/sampling.h.

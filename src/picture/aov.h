@@ -84,6 +84,8 @@ inline const Aov motion{"motion", Format::rg32f, {"X", "Y"}, AovKind::numbers, A
 
 inline const Aov lineRecord{"line_record", Format::r32ui, {"id"}, AovKind::numbers, AovUse::betweenPasses,
     "Number of what the object or its material says about its lines; 0 for nothing."};
+inline const Aov surfacePlace{"surface_place", Format::r32ui, {"place"}, AovKind::numbers, AovUse::betweenPasses,
+    "Where the visible point lies in its mesh, as a number: near points have near ones. Only of the exact geometry."};
 inline const Aov visibility{"visibility", Format::rg32ui, {"instance", "triangle"}, AovKind::numbers,
     AovUse::betweenPasses,
     "Instance, counted from 1, and triangle (one number where both fit, see shaders/lib/seen.glsl); on the fine "

@@ -161,6 +161,7 @@ View makeView(const Camera& camera, const SceneInfo& scene, const ViewRequest& r
     view.lineSamples = std::min(samples, request.lineSamples > 0 ? request.lineSamples : std::max(4, samples / 4));
     view.seed = request.seed;
     view.isBlurred = request.isBlurred;
+    view.noiseOnSurface = request.noiseOnSurface;
     view.dpi = request.dpi;
     view.unit = scene.unit();
     view.diagonal = scene.diagonal();

@@ -37,7 +37,8 @@ struct View {
     int sample = 0;                      ///< of sampling.samples()
     int aoSamples = 1, lineSamples = 1;  ///< rates of finding ambient occlusion and lines; at most all samples
     unsigned seed = 0;
-    bool isBlurred = false;  ///< every sample shows a moment of its own
+    bool isBlurred = false;       ///< every sample shows a moment of its own
+    bool noiseOnSurface = false;  ///< randomness belongs to places on surfaces, not to pixels
 
     bool orthographic = false;
     glm::dvec3 eye{0};  ///< camera position, world, scene units
@@ -86,7 +87,7 @@ struct ViewRequest {
     int aoSamples = 0;    ///< 0: a half of them, but at least four
     int lineSamples = 0;  ///< 0: a quarter of them, but at least four
     unsigned seed = 0;
-    bool isBlurred = false;
+    bool isBlurred = false, noiseOnSurface = false;
     double dpi = 96;
 };
 

@@ -244,10 +244,12 @@ private:
             const auto* number = std::get_if<std::int64_t>(&seed->value);
             if (seed->text() && *seed->text() == "frame")
                 config_.image.seedIsFrame = true;
+            else if (seed->text() && *seed->text() == "surface")
+                config_.image.seedIsSurface = true;
             else if (number && *number >= 0 && *number < (std::int64_t{1} << 31))
                 config_.image.seed = static_cast<unsigned>(*number);
             else
-                fail(*seed, "'seed' in [image] must be a whole number from 0 or \"frame\"", "");
+                fail(*seed, "'seed' in [image] must be a whole number from 0, \"frame\" or \"surface\"", "");
         }
         if (const Node* background = node->find("background")) {
             if (background->text() && *background->text() == "transparent")
@@ -373,7 +375,9 @@ private:
 
 std::vector<SettingsTable> configTables() {
     return {{"", "top of the file", kHeader, defaultsOf<Header>()},
-        {"[image]", "the picture; also seed (a number or \"frame\") and background (a colour or \"transparent\")",
+        {"[image]",
+            "the picture; also seed (a number, \"frame\" or \"surface\": noise moves along) and background (a colour "
+            "or \"transparent\")",
             kImage, defaultsOf<ImageSettings>()},
         {"[sheet]", "paper to draw on, instead of image.size", kSheet, defaultsOf<Sheet>()},
         {"[output]",

@@ -20,7 +20,7 @@ struct ImageSettings {
     int samples = 8;
     int aoSamples = 0, lineSamples = 0;
     unsigned seed = 0;
-    bool seedIsFrame = false;
+    bool seedIsFrame = false, seedIsSurface = false;
     Color background{1, 1, 1};
     bool transparent = false;
     double dpi = 96;

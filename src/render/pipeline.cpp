@@ -147,6 +147,7 @@ ViewRequest viewRequest(
     request.lineSamples = config.image.lineSamples;
     request.seed = config.image.seedIsFrame ? static_cast<unsigned>(frame) : config.image.seed;
     request.isBlurred = config.image.shutter > 0;
+    request.noiseOnSurface = config.image.seedIsSurface;
     request.dpi = config.image.dpi;
     request.guard = guard;
     request.keptGuard = keptGuard;

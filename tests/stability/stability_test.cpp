@@ -451,7 +451,7 @@ TEST(Parameters, eachStandsForItself) {
             // Some value other than the default, by type.
             const std::string was = f.type().text(f.constMember(defaults.get()));
             std::string value = was == "true" ? "false" : "true";
-            if (f.type().components == 1 || f.type().name == "integer")
+            if ((f.type().components == 1 && f.type().name != "boolean") || f.type().name == "integer")
                 value = was == numberText(f.info.min) || !std::isfinite(f.info.min)
                     ? (std::isfinite(f.info.max) ? numberText(f.info.max) : "7")
                     : numberText(f.info.min);

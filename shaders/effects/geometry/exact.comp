@@ -8,6 +8,9 @@
 #include "lib/space.glsl"
 #include "lib/normals.glsl"
 #include "lib/seen.glsl"
+#ifdef WRITES_surface_place
+#include "lib/bits.glsl"
+#endif
 #if defined(WRITES_albedo) && defined(TEXTURED)
 #include "lib/texture.glsl"
 #endif
@@ -65,6 +68,9 @@ void writeBackground() {
 #ifdef WRITES_motion
     write_motion(vec4(0));
 #endif
+#ifdef WRITES_surface_place
+    write_surface_place(uvec4(0));
+#endif
 #ifdef WRITES_albedo
     write_albedo(vec4(0));
 #endif
@@ -91,7 +97,8 @@ void main() {
     Instance instance = instanceAt(number);
 
 #if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) \
-    || defined(WRITES_motion) || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
+    || defined(WRITES_motion) || defined(WRITES_surface_place) \
+    || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
     ivec3 corners =
         int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
     vec3 p0 = texelFetch(positions, corners.x).xyz, p1 = texelFetch(positions, corners.y).xyz,
@@ -120,6 +127,17 @@ void main() {
     dvec2 ray = centre * view.rayScaleExact + view.rayOffsetExact;
     vec3 inView = vec3(dvec3(ORTHOGRAPHIC ? ray : ray * depthHere, -depthHere));
     write_position(vec4((view.worldFromView * vec4(inView, 1.0)).xyz, 0));
+#endif
+#ifdef WRITES_surface_place
+    // Cells of two to four pixels, the sizes of which are powers of two: most pixels stay in theirs while things move.
+    // (Measured under a slow pan: with half the size noise flickers more than noise that stays where the pixels are.)
+    float pixelSize = float(view.rayScaleExact.x) * (ORTHOGRAPHIC ? 1.0 : float(depthHere))
+        * length(vec3(s.meshFromView.rows[0].x, s.meshFromView.rows[1].x, s.meshFromView.rows[2].x));
+    int size = int(floatBitsToUint(pixelSize) >> 23) - 125;  // the exponent of the power of two after the next
+    vec3 cells = (p0 + weights.x * (p1 - p0) + weights.y * (p2 - p0)) * exp2(float(-size));
+    // Flat faces often lie at round numbers: the borders of cells must not.
+    uvec3 cell = uvec3(ivec3(floor(cells + vec3(0.37, 0.61, 0.43))));
+    write_surface_place(uvec4(interleaved(cell) ^ mixBits(number * 64u + uint(size + 32))));
 #endif
 #ifdef WRITES_motion
     vec2 was = previousPixel(number, p0 + weights.x * (p1 - p0) + weights.y * (p2 - p0), vec2(centre));

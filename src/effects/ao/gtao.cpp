@@ -61,6 +61,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.name = "gtao";
     const int halo = graph.view().haloOf(radius);
     pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)}, {"normal", inputs.normal}};
+    graph.seedNoise(pass);
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
     pass.params = paramsBlock(kConstants,

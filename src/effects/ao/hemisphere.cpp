@@ -106,6 +106,7 @@ void build(EffectBuilder& graph, const Params& params) {
     const int halo = params.clampTaps ? 0 : graph.view().haloOf(graph.view().normalized(params.radius));
     pass.reads = {
         {"depth", inputs.depth, halo, params.clampTaps || !graph.view().holds(halo)}, {"normal", inputs.normal}};
+    graph.seedNoise(pass);
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, params.falloff);

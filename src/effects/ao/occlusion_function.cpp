@@ -120,6 +120,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.reads = {{"depth", inputs.depth, halo, inScene},
         {"normal", inputs.normal, params.samePlane == SamePlane::normals ? halo : 0,
             params.samePlane == SamePlane::normals && inScene}};
+    graph.seedNoise(pass);
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     defineOcclusion(pass, inputs, Falloff::none);

@@ -110,6 +110,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.reads = {
         {"depth", graph.read(aov::depth), halo, params.radiusIn == RadiusIn::image || !graph.view().holds(halo)}};
     if (params.kernel == ToonKernel::hemisphere) pass.reads.push_back({"normal", graph.read(aov::normalGeometric)});
+    graph.seedNoise(pass);
     pass.writes = {{"result", result}};
     pass.params = paramsBlock(kConstants, derive(params, graph.view()));
     const auto define = [&](bool on, const char* name) {

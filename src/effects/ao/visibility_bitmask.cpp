@@ -81,6 +81,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.name = "visibility_bitmask";
     pass.reads = {{"depth", inputs.depth, halo, !graph.view().holds(halo)},
         {"normal", inputs.normal, params.join ? halo : 0, params.join && !graph.view().holds(halo)}};
+    graph.seedNoise(pass);
     pass.writes = {{"result", result}};
     const double turn = std::acos(-1.0) / params.slices;
     pass.params = paramsBlock(kConstants,

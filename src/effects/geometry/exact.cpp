@@ -34,6 +34,9 @@ void build(EffectBuilder& graph, const NoParams&) {
     const ResourceId motion = graph.image(aov::motion);
     resolve.writes.push_back({std::string(aov::motion.name), motion, SceneData::previous});
     graph.publish(aov::motion, motion);
+    const ResourceId place = graph.image(aov::surfacePlace);
+    resolve.writes.push_back({std::string(aov::surfacePlace.name), place});
+    graph.publish(aov::surfacePlace, place);
     resolve.defines = surfaceDefines(graph);
     graph.defineSeen(resolve);
     resolve.needs = SceneData::positions;

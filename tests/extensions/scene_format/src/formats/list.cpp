@@ -16,7 +16,8 @@ SceneFile readList(const std::filesystem::path& path) {
     for (std::string line; std::getline(lines, line);) {
         const std::string name = std::filesystem::path(line).stem().string();
         file.scene.meshes.push_back({.name = name, .file = (path.parent_path() / line).string()});
-        file.scene.instances.push_back({{.name = name, .mesh = name}, {}});
+        Instance& instance = file.scene.instances.emplace_back().base;
+        instance.name = instance.mesh = name;
     }
     return file;
 }
