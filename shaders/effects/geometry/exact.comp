@@ -97,7 +97,7 @@ void main() {
     Instance instance = instanceAt(number);
 
 #if defined(WRITES_depth) || defined(WRITES_normal) || defined(WRITES_normal_geometric) || defined(WRITES_position) \
-    || defined(WRITES_motion) || defined(WRITES_surface_place) \
+    || defined(WRITES_motion) || defined(WRITES_surface_place)                                                      \
     || (defined(WRITES_albedo) && (defined(TEXTURED) || defined(VERTEX_COLORS)))
     ivec3 corners =
         int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
