@@ -2,6 +2,7 @@
 
 #include <spdlog/sinks/ansicolor_sink.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -76,8 +77,11 @@ bool showsStatus() {
 void status(const std::string& line) {
     const std::lock_guard lock(voice().mutex);
     if (line.empty() && voice().status.empty()) return;
-    show("\r\033[K" + line);
-    voice().status = line;
+    // A line that the terminal breaks could not be taken back.
+    struct winsize size {};
+    const bool isKnown = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    voice().status = line.substr(0, isKnown ? size.ws_col - 1u : 79u);
+    show("\r\033[K" + voice().status);
 }
 
 }  // namespace limn::log

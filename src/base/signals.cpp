@@ -33,6 +33,7 @@ void endCleanlyOnSignals() {
         int number = 0;
         if (::sigwait(&set, &number) != 0) return;
         abandonPendingFiles();
+        ::alarm(2);  // ends it where nobody takes what is said now
         log::status("");
         log::warning("ended by {}: what is saved is complete", ::strsignal(number));
         // Ends as it would have ended, so that shells and farms see why.

@@ -72,7 +72,8 @@ constexpr auto kInstance = joinFields(kPlace, kInstanceOwn);
 constexpr Field kSequence[] = {
     field<&SequenceSettings::first>("first", {.min = -1e8, .max = 1e8, .required = true}, "Number of the first file."),
     field<&SequenceSettings::last>("last", {.min = -1e8, .max = 1e8, .required = true}, "Number of the last file."),
-    field<&SequenceSettings::start>("start", {.unit = "frames"}, "The frame that shows the first file."),
+    field<&SequenceSettings::start>(
+        "start", {.unit = "frames", .min = -1e8, .max = 1e8}, "The frame that shows the first file."),
     field<&SequenceSettings::speed>(
         "speed", {.unit = "files per frame", .min = 0, .max = 1000}, "0.5: each file twice."),
     field<&SequenceSettings::ends>("ends", "Before the first file and after the last: hold, loop or bounce."),

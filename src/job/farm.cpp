@@ -25,7 +25,7 @@ std::string renderCommand(const FarmOptions& options) {
 /// Directives that both jobs have.
 std::string directives(const FarmOptions& options, const std::string& name, const std::string& log) {
     std::string text = fmt::format(
-        "#SBATCH --job-name={}\n#SBATCH --output={}\n#SBATCH --open-mode=append\n"
+        "#SBATCH --job-name={}\n#SBATCH --output=\"{}\"\n#SBATCH --open-mode=append\n"
         "#SBATCH --requeue\n",
         name, log);
     if (options.cpus > 0) text += fmt::format("#SBATCH --cpus-per-task={}\n", options.cpus);
@@ -60,6 +60,8 @@ FarmScripts writeSlurm(const FarmOptions& options) {
         options.folder.empty() ? std::filesystem::path(name.substr(5) + ".farm") : options.folder);
     const FarmScripts scripts{folder, folder / "tasks.sh", folder / "last.sh"};
     const std::string logs = (folder / "logs").string();
+    std::string logName;  // % begins a pattern there
+    for (const char c : logs) logName += c == '%' ? "%%" : std::string(1, c);
     std::error_code failed;
     std::filesystem::create_directories(logs, failed);
     if (failed)
@@ -83,7 +85,7 @@ fi
 exit $code
 )",
             fmt::arg("tasks", options.tasks), fmt::arg("path", shellText(scripts.tasks.string())),
-            fmt::arg("directives", directives(options, name, logs + "/%A_%a.log")),
+            fmt::arg("directives", directives(options, name, logName + "/%A_%a.log")),
             fmt::arg("command", renderCommand(options)), fmt::arg("retries", options.retries)));
     writeScript(scripts.last,
         fmt::format(R"(#!/bin/bash
@@ -93,7 +95,7 @@ exit $code
 exec {command}
 )",
             fmt::arg("path", shellText(scripts.last.string())),
-            fmt::arg("directives", directives(options, name + "-last", logs + "/last.log")),
+            fmt::arg("directives", directives(options, name + "-last", logName + "/last.log")),
             fmt::arg("command", renderCommand(options))));
     return scripts;
 }

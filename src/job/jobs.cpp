@@ -65,7 +65,16 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
         log::warning(
             "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,
             job.output.string());
-    if (!job.config.output.video.empty()) requireVideo(job.config.output.video);
+    const auto& video = job.config.output.video;
+    if (!video.empty()) {
+        requireVideo(video);
+        requireWritable(video);
+    }
+    for (const auto& other : before)
+        if (!video.empty() && other.config.output.video.lexically_normal() == video.lexically_normal())
+            throw Error(ExitCode::usage, {path},
+                fmt::format("would write the same film as '{}': '{}'", other.config.file.string(), video.string()),
+                "give each its own output.video");
     if (!options.crop.empty()) job.crop = parseCrop(options.crop, job.config.image.size);
     return job;
 }

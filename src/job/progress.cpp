@@ -50,10 +50,11 @@ void Progress::beginJob(std::size_t job, std::size_t jobs, std::size_t frames) {
     jobBegun_ = Clock::now();
 }
 
-void Progress::begin(const std::string& what) {
+void Progress::begin(const std::string& what, bool isFrame) {
     {
         const std::lock_guard lock(mutex_);
         what_ = what;
+        isFrame_ = isFrame;
         share_ = -1;
         begun_ = Clock::now();
         next_ = begun_ + kFirst;
@@ -76,6 +77,7 @@ void Progress::frameDone(bool wasDrawn) {
     const std::lock_guard lock(mutex_);
     ++framesDone_;
     framesDrawn_ += wasDrawn ? 1 : 0;
+    if (wasDrawn) lastDrawn_ = Clock::now();
     tellFarm();
 }
 
@@ -103,9 +105,9 @@ std::string Progress::bar() const {
     if (frames_ > 1) text += fmt::format("{}/{} frames, ", std::min(framesDone_ + 1, frames_), frames_);
     text += what_;
     if (share_ >= 0) text += fmt::format(" {:.0f} %", 100 * share_);
-    const double passed = std::chrono::duration<double>(Clock::now() - jobBegun_).count();
     if (framesDrawn_ > 0) {
-        const double each = passed / static_cast<double>(framesDrawn_);
+        const double each =
+            std::chrono::duration<double>(lastDrawn_ - jobBegun_).count() / static_cast<double>(framesDrawn_);
         text +=
             fmt::format(", {:.2f} s each, {} left", each, clockText(each * static_cast<double>(frames_ - framesDone_)));
     } else if (share_ > 0.02) {
@@ -125,7 +127,7 @@ void Progress::tell() {
             continue;
         }
         const auto now = Clock::now();
-        if (limit_.count() > 0 && now - begun_ > limit_ + std::max(limit_, kGrace)) {
+        if (isFrame_ && limit_.count() > 0 && now - begun_ > limit_ + std::max(limit_, kGrace)) {
             log::error("{} took longer than {} s and did not stop", what_, limit_.count());
             abandonPendingFiles();
             std::_Exit(static_cast<int>(ExitCode::transient));

@@ -31,8 +31,8 @@ public:
 
     /// The run's share that begins with the next frame: a config's, of `frames` frames.
     void beginJob(std::size_t job, std::size_t jobs, std::size_t frames);
-    /// `what`: "room.png".
-    void begin(const std::string& what);
+    /// `what`: "room.png". The limit holds for frames.
+    void begin(const std::string& what, bool isFrame = false);
     /// How much of it is done, 0 to 1. Shares below 0 are not known.
     void reach(double share);
     void end();
@@ -53,9 +53,9 @@ private:
     std::string what_;  ///< empty: nothing goes on
     double share_ = -1;
     std::size_t job_ = 0, jobs_ = 1, frames_ = 0, framesDone_ = 0, framesDrawn_ = 0;
-    Clock::time_point begun_, next_, jobBegun_ = Clock::now();
+    Clock::time_point begun_, next_, lastDrawn_, jobBegun_ = Clock::now();
     int toldPercent_ = -1;
-    bool isOver_ = false;
+    bool isFrame_ = false, isOver_ = false;
     std::thread thread_;
 };
 

@@ -27,8 +27,9 @@ struct FrameTask {
     FrameWriter writer;
     Statistics::Frame report;
     Clock::time_point begun;
-    bool isBroken = false;    ///< an earlier step failed
-    bool hasFlicker = false;  ///< its change from the frame before is measured
+    bool isBroken = false;     ///< an earlier step failed
+    bool hasFlicker = false;   ///< its change from the frame before is measured
+    bool followsLast = false;  ///< the frame before it in time was drawn before it
 };
 using SharedTask = std::shared_ptr<FrameTask>;
 
@@ -54,8 +55,14 @@ public:
         if (!options_.stats.empty()) requireWritable(options_.stats);
         Errors failures;
         collect(failures.list, [&] { drawAll(jobs); });
+        // What was drawn before a failure is still written.
+        if (!failures.list.empty()) {
+            collect(failures.list, [&] { behind_.wait(); });
+            statistics_.add(
+                {current_.first, current_.second, FrameOutcome::failed, {}, 0, failures.list.front().message, {}});
+        }
         ExitCode code = failures.list.empty() ? ExitCode::done : failures.code();
-        if (failures.list.empty() && failed_ > 0) code = done_ > 0 ? ExitCode::someFramesFailed : firstFailure_;
+        if (failures.list.empty() && failed_ > 0) code = succeeded_ > 0 ? ExitCode::someFramesFailed : firstFailure_;
         if (!options_.stats.empty())
             replaceFile(options_.stats, statistics_.json(deviceName_, code, since(start_) / 1000));
         if (!failures.list.empty()) throw std::move(failures);
@@ -85,8 +92,9 @@ private:
                 loadMilliseconds_ = loadMilliseconds_ > 0 ? loadMilliseconds_ : since(start_);
                 const std::vector<int> frames = framesOf(jobs[j], options_, loaded);
                 progress_.beginJob(j, jobs.size(), frames.size());
+                const std::size_t failedBefore = failures();
                 drawFrames(jobs[j], frames);
-                film(jobs[j], frames, loaded.scene.fps);
+                film(jobs[j], frames, loaded.scene.fps, failedBefore);
             });
             ahead();
             const bool isDone = std::none_of(jobs.begin() + static_cast<std::ptrdiff_t>(j) + 1, jobs.end(),
@@ -120,19 +128,23 @@ private:
         for (std::size_t i = 0; i < frames.size(); ++i) {
             const std::optional<int> next = i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
             const auto path = framePath(job.output, frames[i]);
-            attempt(path, frames[i], [&] { drawFrame(job, path, frames[i], next, frames.size() > 1); });
+            if (attempt(path, frames[i], [&] { drawFrame(job, path, frames[i], next, frames.size() > 1); })) continue;
+            last_ = {};  // it may hold a part of a picture, and so may:
+            behind_.post([this] { flicker_ = {}; });
+            endFrame(false);
         }
         last_ = {};
         if (frames.empty()) log::info("{}: no frame in part {}", job.config.file.string(), options_.chunk);
     }
 
     /// The film of a job's frames, once they are in place.
-    void film(const Job& job, const std::vector<int>& frames, double fps) {
+    void film(const Job& job, const std::vector<int>& frames, double fps, std::size_t failedBefore) {
         const auto& path = job.config.output.video;
         if (path.empty() || frames.empty()) return;
-        if (!options_.chunk.empty())
-            return log::info("{}: left to limn video, once all parts are drawn", path.string());
+        if (!options_.chunk.empty() || !options_.frames.empty() || !options_.crop.empty() || !options_.output.empty())
+            return log::info("{}: left to limn video: this run draws a part, or to another place", path.string());
         behind_.wait();
+        if (failures() > failedBefore) return log::warning("{}: not made, since frames failed", path.string());
         std::vector<std::filesystem::path> files;
         for (const int frame : frames) files.push_back(framePath(job.output, frame));
         progress_.begin(path.string());
@@ -145,15 +157,19 @@ private:
     void drawFrame(
         const Job& job, const std::filesystem::path& path, int frame, std::optional<int> next, bool several) {
         const auto files = frameFiles(path, job.config.output.aovs);
-        progress_.begin(path.string());
+        progress_.begin(path.string(), true);
+        current_ = {path, frame};
         if (options_.resume && areCurrent(files, session_.identify(job.config, frame, job.crop).metadata)) {
             log::info("Kept: '{}' is complete and current", path.string());
             statistics_.add({path, frame, FrameOutcome::kept, {}, 0, {}, {}});
+            succeed();
             return endFrame(false);
         }
         const int height = job.crop.size.x > 0 ? job.crop.size.y : job.config.image.size.y;
         const auto task = std::make_shared<FrameTask>(FrameTask{FrameWriter(files, job.config.output.encode, height),
             {path, frame, FrameOutcome::drawn, {}, 0, {}, {}}, done_ == 0 ? start_ : Clock::now()});
+        task->followsLast = lastDrawn_ == std::pair(&job, frame - 1);
+        lastDrawn_ = {&job, frame};
         const ContentKey pixels = several ? session_.pixelsKey(job.config, frame) : ContentKey();
         if (several && job.config.image.shutter == 0 && pixels == last_.pixels && !last_.bands.empty()) {
             repeat(job, frame, task);
@@ -231,6 +247,7 @@ private:
     }
 
     void finish(FrameTask& task) {
+        if (!task.followsLast) flicker_.restart();
         if (task.hasFlicker) task.report.flicker = flicker_.endFrame();
         const auto writeStart = Clock::now();
         const auto files = task.writer.finish();
@@ -239,6 +256,17 @@ private:
         for (const auto& file : files) log::info("Saved: '{}' ({:.1f} ms)", file.string(), task.report.total);
         for (const auto& part : task.report.parts) log::debug("  {:<24} {:8.1f} ms", part.name, part.milliseconds);
         statistics_.add(task.report);
+        succeed();
+    }
+
+    void succeed() {
+        const std::lock_guard lock(mutex_);
+        ++succeeded_;
+    }
+
+    std::size_t failures() {
+        const std::lock_guard lock(mutex_);
+        return failed_;
     }
 
     void tellNonFinite(std::uint64_t count, const std::filesystem::path& path) const {
@@ -257,9 +285,11 @@ private:
     std::string deviceName_;
     double deviceMilliseconds_ = 0, loadMilliseconds_ = 0;  ///< since the run began
     std::mutex mutex_;                                      ///< of what failed:
-    std::size_t failed_ = 0;
+    std::size_t failed_ = 0, succeeded_ = 0;
     ExitCode firstFailure_ = ExitCode::done;
-    std::size_t done_ = 0;
+    std::size_t done_ = 0;  ///< drawn, if not yet written
+    std::pair<std::filesystem::path, int> current_;
+    std::pair<const Job*, int> lastDrawn_{nullptr, 0};
     Behind behind_;  ///< ends first: its tasks use the rest
 };
 

@@ -133,16 +133,17 @@ void makeVideo(
     command.insert(command.end() - 2, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
     command.push_back("file:" + reserved.temporary().string());
     ChildProcess encoder(command);
+    bool isWhole = true;
     for (const auto& path : frames) {
         const RawFrame frame = path == frames.front() ? first : readFrame(path, kind.keepsAlpha);
         if (frame.size != first.size || frame.hasAlpha != first.hasAlpha)
             throw Error(ExitCode::badData, {path.string()},
                 fmt::format("is not like the film's first frame: {}×{} pixels", frame.size.x, frame.size.y),
                 "draw all frames by the same config");
-        if (!encoder.write(std::as_bytes(std::span(frame.bytes)))) break;
+        if (!(isWhole = encoder.write(std::as_bytes(std::span(frame.bytes))))) break;
     }
     const auto [exitCode, said] = encoder.finish();
-    if (exitCode != 0)
+    if (exitCode != 0 || !isWhole)
         throw Error(ExitCode::ioError, {film.string()}, fmt::format("ffmpeg failed ({})", lastLine(said)),
             "free some space, or try another kind of film; the frames are unharmed");
     reserved.commit();

@@ -77,7 +77,9 @@ Metadata metadataOf(const RenderConfig& config, const SceneAt& scene, int frame,
 ContentKey pixelsKey(const RenderConfig& config, const SceneAt& scene, int frame) {
     KeyBuilder key;
     key.add(config.hash);
-    if (config.image.seedIsFrame) key.add(frame);
+    // What else depends on the frame's number, or on the frame before.
+    const auto& aovs = config.output.aovs;
+    if (config.image.seedIsFrame || std::find(aovs.begin(), aovs.end(), &aov::motion) != aovs.end()) key.add(frame);
     for (const auto& [slot, choices] : config.choices)
         for (const auto& choice : choices) {
             const auto settings = choice.at(frame);

@@ -275,11 +275,32 @@ void Renderer::tellProgress(const Frame& frame, const RenderOptions& options, in
     options.onProgress((frame.tilesDone + static_cast<double>(sample) / samples) / frame.tiles);
 }
 
+/// The moments that a frame's samples show.
+static std::vector<double> momentsOf(const RenderConfig& config, int frame) {
+    const Sampling sampling{1, config.image.samples};
+    std::vector<double> moments;
+    for (int sample = 0; sample < sampling.samples(); ++sample)
+        moments.push_back(frame + config.image.shutter * sampling.timeOf(sample));
+    return moments;
+}
+
+void Renderer::addMoments(Frame& frame) {
+    for (const double time : momentsOf(frame.config, frame.number)) {
+        FrameRequest request = frame.request;
+        request.frame = time;
+        const SceneAt scene = sceneAt(frame.loaded, request);
+        addFacts(frame.facts, sceneFacts(scene));
+        KeyBuilder key;
+        key.add(frame.scene.key.low).add(frame.scene.key.high).add(scene.key.low).add(scene.key.high);
+        frame.scene.key = key.key();
+    }
+}
+
 void Renderer::moveTo(Frame& frame, const TilePipelines& pipelines, double time) {
     FrameRequest request = frame.request;
     request.frame = time;
     frame.scene = sceneAt(frame.loaded, request);
-    frame.facts = sceneFacts(frame.scene);
+    pointAt(frame.facts, frame.scene);
     std::vector<PartTime> times;
     bringScene(frame, pipelines, times);
 }
@@ -306,6 +327,7 @@ void Renderer::drawSamples(
         executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
         tellProgress(frame, options, sample + 1, pipelines.sampling.samples());
     }
+    if (pipelines.averagedView.isBlurred) moveTo(frame, pipelines, frame.number);
     gl::finish();
     passTimes_.clear();
     for (std::size_t i = 0; i < executor_.milliseconds().size(); ++i) {
@@ -338,7 +360,6 @@ std::vector<Image> Renderer::drawTile(
     };
     collect(pipelines.averaged);
     if (pipelines.centre) {
-        if (pipelines.averagedView.isBlurred) moveTo(frame, pipelines, frame.number);
         executor_.resetMeasurements();
         setView(frame, pipelines.centreView,
             viewRequest(config, pipelines.centreView.sampling, frame.number, pipelines.guard, options.guard, tile));
@@ -381,10 +402,14 @@ static std::uint64_t bandBytes(const std::vector<Layer>& layers, int width, int 
 
 FrameIdentity Renderer::identify(
     const RenderConfig& config, const LoadedScene& loaded, int number, const PixelRect& crop) const {
-    const SceneAt scene = sceneAt(loaded, frameRequest(config, number));
+    Frame frame{config, loaded, frameRequest(config, number), {}, {}, {}, number, {}};
+    frame.scene = sceneAt(loaded, frame.request);
+    frame.facts = sceneFacts(frame.scene);
+    if (config.image.shutter > 0) addMoments(frame);
+    const SceneAt& scene = frame.scene;
     const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
     const TilePipelines pipelines =
-        buildPipelines(config, scene, sceneFacts(scene), number, largestTexture(), 0, {block, block});
+        buildPipelines(config, scene, frame.facts, number, largestTexture(), 0, {block, block});
     return {metadataOf(config, scene, number, crop, device_.report(), shadersKey_, pipelines.averaged),
         pixelsKey(config, scene, number)};
 }
@@ -439,13 +464,15 @@ RenderedFrame Renderer::render(
     Frame frame{config, loaded, frameRequest(config, number), {}, {}, {}, number, std::move(awaited_)};
     frame.scene = sceneAt(loaded, frame.request);
     frame.facts = sceneFacts(frame.scene);
+    if (config.image.shutter > 0) addMoments(frame);
     const PixelRect firstBlock{glm::ivec2(0), largestBlock(config.image.size)};
     const TilePipelines pipelines = buildPipelines(
         config, frame.scene, frame.facts, number, largestTexture(), options.guard, {firstBlock, firstBlock});
     checkShadows(frame.scene, loaded.scene.file);
     if (has(pipelines.sceneData(), SceneData::previous)) {
         FrameRequest before = frame.request;
-        before.frame = loaded.scene.frames && number > loaded.scene.frames->first ? number - 1 : number;
+        const auto& declared = config.frames ? config.frames : loaded.scene.frames;
+        before.frame = declared && number > declared->first ? number - 1 : number;
         frame.previous = sceneAt(loaded, before);
     }
     watch.lap("plan");

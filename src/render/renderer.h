@@ -128,6 +128,8 @@ private:
     void tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples);
     /// Tells the GPU what changes with the view.
     void setView(const Frame& frame, const View& view, const ViewRequest& request);
+    /// Adds to a frame's facts and content key what its samples show besides.
+    static void addMoments(Frame& frame);
     /// Brings the scene at another moment of the frame.
     void moveTo(Frame& frame, const TilePipelines& pipelines, double time);
     void drawSamples(Frame& frame, const Tile& tile, const TilePipelines& pipelines, const RenderOptions& options);

@@ -113,10 +113,12 @@ Numbers within(const Track& track, double frame) {
 Numbers slopeBeyond(const Track& track, bool isBefore) {
     const auto& keys = track.keyframes;
     Numbers slope{};
-    if (keys.size() < 2 || track.interpolation == Interpolation::constant) return slope;
-    const Keyframe &end = isBefore ? keys.front() : keys.back(), &inner = isBefore ? keys[1] : keys[keys.size() - 2];
-    const bool byHandle = track.interpolation == Interpolation::bezier;
-    const TrackPoint& next = byHandle ? (isBefore ? end.right : end.left) : inner;
+    const bool byHandle = track.interpolation == Interpolation::bezier;  // the outer one, as in Blender
+    if ((keys.size() < 2 && !byHandle) || track.interpolation == Interpolation::constant) return slope;
+    const Keyframe& end = isBefore ? keys.front() : keys.back();
+    const TrackPoint& next = byHandle ? (isBefore ? end.left : end.right)
+        : isBefore                    ? static_cast<const TrackPoint&>(keys[1])
+                                      : keys[keys.size() - 2];
     const double span = next.frame - end.frame;
     for (std::size_t i = 0; i < kNumbers && span != 0; ++i) slope[i] = (next.value[i] - end.value[i]) / span;
     return slope;
@@ -127,8 +129,9 @@ Numbers slopeBeyond(const Track& track, bool isBefore) {
 std::array<double, 4> Track::at(double frame) const {
     const double first = keyframes.front().frame, last = keyframes.back().frame, span = last - first;
     const bool isBefore = frame<first, isAfter = frame> last;
-    if ((!isBefore && !isAfter) || beyond == Beyond::hold || !(span > 0)) return within(*this, frame);
-    if (beyond == Beyond::linear) {
+    const bool isLinear = beyond == Beyond::linear;
+    if ((!isBefore && !isAfter) || beyond == Beyond::hold || (!(span > 0) && !isLinear)) return within(*this, frame);
+    if (isLinear) {
         const Numbers slope = slopeBeyond(*this, isBefore);
         Numbers value = (isBefore ? keyframes.front() : keyframes.back()).value;
         for (std::size_t i = 0; i < kNumbers; ++i) value[i] += slope[i] * (frame - (isBefore ? first : last));
@@ -154,6 +157,11 @@ void applyTracks(void* object, std::span<const Track> tracks, double frame) {
             type.toNumbers(member, value.data());
             value[static_cast<std::size_t>(track.component)] = one;
         }
+        // Curves swing beyond their keys. The second number of a length is its unit.
+        const bool hasUnit = &type == &fieldType<Length>() || &type == &fieldType<PictureLength>();
+        for (std::size_t i = 0; i < (hasUnit ? 1 : kNumbers); ++i)
+            if (value[i] < track.field->info.min || value[i] > track.field->info.max)
+                value[i] = std::clamp(value[i], track.field->info.min, track.field->info.max);
         type.fromNumbers(member, value.data());
     }
 }
@@ -293,8 +301,8 @@ private:
                 handle.frame = keys[i].frame + step;
                 for (std::size_t k = 0; k < kNumbers; ++k) handle.value[k] = keys[i].value[k] + slope[k] * step;
             };
-            put(keys[i].left, i > 0 ? (keys[i - 1].frame - keys[i].frame) / 3 : 0);
-            put(keys[i].right, i + 1 < keys.size() ? (keys[i + 1].frame - keys[i].frame) / 3 : 0);
+            put(keys[i].left, i > 0 ? (keys[i - 1].frame - keys[i].frame) / 3 : -1);
+            put(keys[i].right, i + 1 < keys.size() ? (keys[i + 1].frame - keys[i].frame) / 3 : 1);
         }
     }
 

@@ -33,4 +33,19 @@ SceneFacts sceneFacts(const SceneAt& scene) {
     return facts;
 }
 
+void addFacts(SceneFacts& facts, const SceneFacts& other) {
+    constexpr bool SceneFacts::*kFacts[] = {&SceneFacts::textured, &SceneFacts::cutouts, &SceneFacts::vertexColors,
+        &SceneFacts::shiny, &SceneFacts::coloredLight, &SceneFacts::lineRecords, &SceneFacts::polygons,
+        &SceneFacts::sections, &SceneFacts::marks, &SceneFacts::hatched};
+    for (const auto fact : kFacts) facts.*fact = facts.*fact || other.*fact;
+    // A number for instance and triangle together serves only where all moments share out its bits alike.
+    if (other.triangleBits != facts.triangleBits) facts.triangleBits = 0;
+}
+
+void pointAt(SceneFacts& facts, const SceneAt& scene) {
+    facts.lights = scene.lights;
+    facts.instances = scene.instances;
+    facts.materials = scene.materials;
+}
+
 }  // namespace limn

@@ -28,4 +28,9 @@ struct SceneFacts {
 
 SceneFacts sceneFacts(const SceneAt& scene);
 
+/// Makes facts hold for another moment of the same frame too.
+void addFacts(SceneFacts& facts, const SceneFacts& other);
+/// Lets the facts' lists be those of a scene at another moment, which the facts hold for.
+void pointAt(SceneFacts& facts, const SceneAt& scene);
+
 }  // namespace limn

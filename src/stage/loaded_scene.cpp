@@ -342,6 +342,8 @@ LoadedScene loadScene(const std::filesystem::path& path, const MeshFileOptions& 
         key.add(image.low).add(image.high);
         loaded.files.emplace_back(file);
     }
+    // Decides the camera, relative lengths and precision at every frame.
+    for (const auto& corner : {loaded.bounds.lo, loaded.bounds.hi}) key.add(corner.x).add(corner.y).add(corner.z);
     loaded.key = key.key();
     return loaded;
 }

@@ -274,7 +274,10 @@ SceneAt sceneAt(const LoadedScene& loaded, const FrameRequest& request) {
     const Scene& scene = loaded.scene;
     SceneAt at;
     at.frame = request.frame;
-    at.meshes = loaded.meshes->at(static_cast<int>(std::lround(request.frame)));
+    // Moments between frames have the files of those, and none beyond the first and the last.
+    int file = static_cast<int>(std::lround(request.frame));
+    if (scene.frames && request.frame != file) file = std::clamp(file, scene.frames->first, scene.frames->last);
+    at.meshes = loaded.meshes->at(file);
     at.info = sceneInfo(loaded);
     MaterialTable materials(scene, at.meshes, request.frame);
     CutMaterials cuts(resolveSections(scene, request), request);
