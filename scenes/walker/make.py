@@ -167,23 +167,20 @@ def write(path, points, faces):
         file.writelines("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
 
 
-def write_tiles(path, side=0.4, joint=0.012, bevel=0.008):
-    """Slabs on the ground, with joints between them."""
+def write_tiles(path, side=0.4):
+    """Slabs on the ground, each a part of its own: lines are drawn where they meet."""
     lines, count = [], 0
-    for row in range(-14, 8):
+    for row in range(-16, 9):
         for column in range(-9, 10):
             x, y = column * side + (side / 2 if row % 2 else 0), row * side
-            half = (side - joint) / 2
-            rings = [(half, -bevel), (half - bevel, 0.0)]
-            for reach, z in rings:
-                lines += ["v %.4f %.4f %.4f" % (x + sx * reach, y + sy * reach, z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            lines.append("f %d %d %d %d" % tuple(count + i for i in (5, 6, 7, 8)))
-            lines += ["f %d %d %d %d" % tuple(count + 1 + i for i in (k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k)) for k in range(4)]
-            count += 8
-    lines += ["v %.4f %.4f %.4f" % (sx * 9, sy * 12 - 1, -bevel) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    lines.append("f %d %d %d %d" % tuple(count + i for i in (1, 2, 3, 4)))
+            half = side / 2
+            corners = ((-half, -half), (half, -half), (half, half), (-half, half))
+            lines.append("o slab_%d_%d" % (row + 16, column + 9))
+            lines += ["v %.4f %.4f 0" % (x + dx, y + dy) for dx, dy in corners]
+            lines.append("f %d %d %d %d" % tuple(count + i for i in (1, 2, 3, 4)))
+            count += 4
     with open(path, "w") as file:
-        file.write("# Made by scenes/walker/make.py\no tiles\n" + "\n".join(lines) + "\n")
+        file.write("# Made by scenes/walker/make.py\n" + "\n".join(lines) + "\n")
 
 
 def main():
