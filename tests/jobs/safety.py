@@ -7,6 +7,7 @@ nothing happened to.
 
 import argparse
 import hashlib
+import json
 import os
 import random
 import resource
@@ -223,8 +224,6 @@ def failures(runs, log):
     said = runs.run(config, "--frame-timeout", "0.0001", "--keep-going", "--set", "image.size=[1600,1200]", "--set",
                     "image.samples=64", "--frames", "1-2", "--stats", stats, expect=75)  # fmt: skip
     assert said.count("took longer than") == 2, said
-    import json
-
     report = json.load(open(stats))
     assert report["failed"] == 2 and report["exit_code"] == 75, report
     assert [frame["outcome"] for frame in report["frames"]] == ["failed", "failed"], report
@@ -236,6 +235,85 @@ def failures(runs, log):
     os.remove(box)
     runs.run(config, "--resume", expect=66)
     log("exit codes, timeouts, --keep-going and progress as documented")
+
+
+def edit(config, name, *pairs):
+    """Changes a file beside the config."""
+    path = os.path.join(os.path.dirname(config), name)
+    text = open(path).read()
+    for old, new in pairs:
+        assert old in text, (name, old)
+        text = text.replace(old, new)
+    with open(path, "w") as file:
+        file.write(text)
+
+
+def alike(runs, log):
+    """A frame does not depend on the frames drawn before it, and none is kept that would now be another."""
+    # The motion AOV depends on the frame before: frames that rest are not all the same.
+    config = runs.fresh(kind="exr", aovs='["beauty", "motion", "object_id"]')
+    runs.run(config)
+    whole = hashes(out(config))
+    for frame in (5, 6):
+        runs.run(config, "--frames", str(frame))
+    assert hashes(out(config)) == whole, "motion"
+    # An open shutter: what is hidden at the frame's own time may be there at others, and files of other frames too.
+    config = runs.fresh(frames=5)
+    edit(config, "config.toml", ("samples = 2", "samples = 8\nshutter = 3"))
+    edit(config, "scene.toml", ('file = "box.obj"', 'file = "box_##.obj"'))
+    here = os.path.dirname(config)
+    for frame in range(1, 6):
+        shutil.copy(os.path.join(here, "box.obj"), os.path.join(here, "box_%02d.obj" % frame))
+    runs.run(config)
+    whole = hashes(out(config))
+    for frame in (3, 1, 5):
+        runs.run(config, "--frames", str(frame))
+    assert hashes(out(config)) == whole, "shutter"
+    edit(config, "box_04.obj", ("v 1 1 1", "v 1 2 1"))
+    said = runs.run(config, "--resume")
+    kept = [line for line in said.splitlines() if line.startswith("Kept:")]
+    assert [line for line in kept if "0001" in line] and not [line for line in kept if "0003" in line], said
+    # The first frame's mesh frames every other one where no camera does.
+    config = runs.fresh(frames=3)
+    edit(config, "scene.toml", ('file = "box.obj"', 'file = "box_##.obj"'), ("[[camera]]", "[[light]]"),
+         ("position = [3, 2, 4]\nlook_at = [0, 0, 0]\nfov = 45", "direction = [-1, -2, -1]"))  # fmt: skip
+    here = os.path.dirname(config)
+    for frame in range(1, 4):
+        shutil.copy(os.path.join(here, "box.obj"), os.path.join(here, "box_%02d.obj" % frame))
+    runs.run(config)
+    edit(config, "box_01.obj", ("v 1 1 1", "v 1 3 1"))
+    said = runs.run(config, "--resume")
+    assert "Kept:" not in said, said
+    log("frames with motion, an open shutter and a framing camera are what they are alone")
+
+
+def accounts(runs, log):
+    """What a run says of itself where some of it fails."""
+    config = runs.fresh(frames=3)
+    edit(config, "scene.toml", ('file = "box.obj"', 'file = "box_##.obj"'))
+    here = os.path.dirname(config)
+    for frame in (1, 2, 3):
+        shutil.copy(os.path.join(here, "box.obj"), os.path.join(here, "box_%02d.obj" % frame))
+    runs.run(config)
+    with open(os.path.join(here, "box_03.obj"), "w") as file:
+        file.write("v 0 0 0\nf 1 2 3\n")
+    stats = os.path.join(here, "stats.json")
+    runs.run(config, "--resume", "--keep-going", "--stats", stats, expect=1)
+    report = json.load(open(stats))
+    assert (report["kept"], report["failed"], report["exit_code"]) == (2, 1, 1), report
+    shutil.rmtree(out(config))
+    runs.run(config, "--stats", stats, expect=65)
+    report = json.load(open(stats))
+    assert (report["drawn"], report["failed"], report["exit_code"]) == (2, 1, 65), report
+    assert sorted(os.listdir(out(config))) == ["box_0001.png", "box_0002.png"]
+
+    def no_space():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    process = runs.start(config, "--keep-going", "--frames", "1-2", "--set", "shading.floor=0.9", preexec_fn=no_space)
+    process.communicate()
+    assert process.returncode == 74, process.returncode
+    log("reports and exit codes count what was kept, drawn and failed")
 
 
 def main():
@@ -253,7 +331,7 @@ def main():
 
     with tempfile.TemporaryDirectory() as place:
         runs = Runs(os.path.abspath(options.limn), place)
-        for part in (partitions, mixed, crowd, failures, full_disk, small_disk):
+        for part in (partitions, mixed, alike, crowd, failures, accounts, full_disk, small_disk):
             part(runs, log)
         kills(runs, options.kills, log)
     if options.log:

@@ -96,6 +96,17 @@ def refused(runs):
     for pattern, code in [("box.png", 64), ("none_####.png", 66)]:
         done = subprocess.run([runs.limn, "video", os.path.join(place, pattern), "--output", film], capture_output=True)
         assert done.returncode == code, (pattern, done)
+    # A film of all frames is not replaced by one of some, nor by one with frames that failed.
+    whole = runs.fresh(frames=3)
+    kept = os.path.join(os.path.dirname(whole), "kept.mp4")
+    wanted = ["--set", "output.video='%s'" % kept]
+    runs.run(whole, *wanted)
+    before = open(kept, "rb").read()
+    for part in (["--frames", "2"], ["--crop", "0,0,16,16"], ["--output", place + "/other/box_####.png"]):
+        assert "limn video" in runs.run(whole, "--resume", *wanted, *part)
+    os.remove(os.path.join(os.path.dirname(whole), "box.obj"))
+    runs.run(whole, "--resume", "--keep-going", *wanted, expect=66)
+    assert open(kept, "rb").read() == before
     # A part of the frames makes no film; it says who does.
     said = runs.run(config, "--chunk", "1/2", "--set", "output.video='%s'" % film)
     assert "limn video" in said and not os.path.exists(film), said
