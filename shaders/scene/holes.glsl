@@ -1,14 +1,14 @@
 // Holes of materials in triangles: there is nothing where the texture's alpha is below one half. For raster passes.
 #include "lib/texture.glsl"
 
-// Is there a hole at this point of a triangle? In view space. Call it for all fragments: it takes derivatives.
+// Is there a hole at this point of a triangle, in mesh units? Call it for all fragments: it takes derivatives. Its
+// answer is the same from every view.
 bool isHole(uint number, uint triangle, vec3 point) {
     Instance instance = instanceAt(number);
     ivec3 corners =
         int(instance.firstVertex) + ivec3(texelFetch(triangles, int(instance.firstTriangle + triangle)).xyz);
-    vec3 p0 = viewFromMesh(number, texelFetch(positions, corners.x).xyz);
-    vec3 edge1 = viewFromMesh(number, texelFetch(positions, corners.y).xyz) - p0,
-         edge2 = viewFromMesh(number, texelFetch(positions, corners.z).xyz) - p0;
+    vec3 p0 = texelFetch(positions, corners.x).xyz;
+    vec3 edge1 = texelFetch(positions, corners.y).xyz - p0, edge2 = texelFetch(positions, corners.z).xyz - p0;
     // Scaled to about 1, so that no square leaves float's range.
     vec3 sides = max(abs(edge1), abs(edge2));
     float scale = 1.0 / max(max(sides.x, sides.y), max(sides.z, 1e-30));

@@ -2,11 +2,11 @@
 #ifdef CUTOUTS
 #include "scene/scene.glsl"
 #include "scene/holes.glsl"
-in vec3 viewPoint;
+in vec3 pointInMesh;
 flat in uint instanceNumber;
 
 void main() {
-    if (isHole(instanceNumber, uint(gl_PrimitiveID), viewPoint)) discard;
+    if (isHole(instanceNumber, uint(gl_PrimitiveID), pointInMesh)) discard;
 }
 #else
 

@@ -125,7 +125,7 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     if (shadowMaps_) return shadowMaps_;
     const ShadowLayout layout = shadowLayout(scene_.lights);
     if (layout.maps.empty()) return std::nullopt;
-    shadowMaps_ = graph_.add({"shadow_maps", Format::depth32f, layout.size, false});
+    shadowMaps_ = graph_.add({"shadow_maps", Format::depth32f, layout.size, true});
     Pass pass;
     pass.name = "shadow_maps";
     pass.slot = "shadow";
@@ -134,11 +134,13 @@ std::optional<ResourceId> EffectBuilder::shadowMaps() {
     pass.rate = view_.sampling.samples() == 1 || view_.isBlurred ? kEverySample : 1;
     pass.shader = "scene/shadow_map";
     pass.writes = {{"shadowDepth", *shadowMaps_}};
-    pass.needs = SceneData::positions | SceneData::lights;
+    pass.needs = SceneData::positions | SceneData::shadows;
+    pass.isOfLights = true;
     cutHoles(pass);
     if (scene_.cutouts && isUnified()) pass.defines.emplace_back("UNIFIED", "");
-    for (const auto& map : layout.maps) pass.rasterViews.push_back({map.viewport, map.number});
-    pass.defines.emplace_back("LIGHT_COUNT", std::to_string(scene_.lights.size()));
+    for (const auto& map : layout.maps)
+        pass.rasterViews.push_back({map.viewport, static_cast<int>(pass.rasterViews.size())});
+    pass.defines.emplace_back("MAP_COUNT", std::to_string(layout.maps.size()));
     pass.note = fmt::format("{} map{}", layout.maps.size(), layout.maps.size() == 1 ? "" : "s");
     graph_.passes.push_back(std::move(pass));
     return shadowMaps_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <optional>
@@ -33,12 +34,14 @@ void Executor::prepare(const Graph& graph, const Plan& plan, const View& view) {
 
 void Executor::allocate(const Plan& plan) {
     textures_.erase(textures_.lower_bound(plan.textures.size()), textures_.end());
+    seenByLights_.erase(seenByLights_.lower_bound(plan.textures.size()), seenByLights_.end());
     std::vector<std::size_t> missing;
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {
         const auto& wanted = plan.textures[i];
         auto& texture = textures_[i];
         if (texture && texture.format() == wanted.format && texture.size() == wanted.size) continue;
+        seenByLights_.erase(i);
         texture = {};  // frees the old texture before any new one is made
         missing.push_back(i);
         bytes += wanted.bytes();
@@ -47,6 +50,26 @@ void Executor::allocate(const Plan& plan) {
     if (device_.report().isSoftware) bringInPages(bytes + bytes / 3);
     for (const std::size_t i : missing)
         textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
+}
+
+bool Executor::isKept(const Plan& plan, const Pass& pass, const GpuScene& scene) const {
+    return pass.isOfLights && std::all_of(pass.writes.begin(), pass.writes.end(), [&](const Write& write) {
+        const int texture = plan.textureOf[static_cast<std::size_t>(write.resource.index)];
+        const auto seen = seenByLights_.find(static_cast<std::size_t>(texture));
+        return seen != seenByLights_.end() && seen->second == scene.shadowsKey();
+    });
+}
+
+void Executor::noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene) {
+    for (std::size_t w = 0; w < pass.writes.size(); ++w) {
+        if (!planned.writes[w]) continue;
+        const auto written =
+            static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)]);
+        if (pass.isOfLights)
+            seenByLights_[written] = scene.shadowsKey();
+        else
+            seenByLights_.erase(written);
+    }
 }
 
 const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) const {
@@ -72,10 +95,11 @@ void Executor::run(
     stamp();
     for (const auto& planned : plan.passes) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-        if (!planned.runs) {
+        if (!planned.runs || isKept(plan, pass, scene)) {
             stamp();
             continue;
         }
+        noteContent(plan, planned, pass, scene);
         const gl::DebugGroup group(pass.name);
         if (pass.kind == Pass::Kind::host) {
             runHost(graph, plan, planned, view, host, scene.marks());

@@ -45,6 +45,9 @@ private:
     const gl::Program& program(
         const Graph& graph, const PlannedPass& planned, const View& view, const UniformBlock& block);
     void allocate(const Plan& plan);
+    /// Do the pass's images show already what lights see?
+    bool isKept(const Plan& plan, const Pass& pass, const GpuScene& scene) const;
+    void noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(
         const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
@@ -62,6 +65,8 @@ private:
     const ShaderLibrary& shaders_;
     std::unordered_map<std::string, gl::Program> programs_;  ///< by their whole source
     std::map<std::size_t, gl::Texture> textures_;            ///< by index into Plan::textures
+    /// Of textures whose content depends on nothing but what the scene's lights see: what they saw.
+    std::map<std::size_t, ContentKey> seenByLights_;
     std::vector<double> milliseconds_;
     double transferMilliseconds_ = 0;
     gl::VertexArray noVertices_;

@@ -4,6 +4,7 @@
 #include "base/in_order.h"
 #include "gpu/lights.h"
 #include "settings/color.h"
+#include "stage/shadow_layout.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -29,7 +30,8 @@ enum Unit {
     instancesUnit,
     materialsUnit,
     atlasUnit,
-    previousUnit
+    previousUnit,
+    shadowPlacesUnit
 };
 constexpr int kLightsBinding = 2;
 
@@ -187,6 +189,7 @@ void GpuScene::require(SceneData needs, std::size_t lineRecords) {
     generations_.clear();
     coincident_.clear();
     coincidentKey_ = {};
+    shadowsKey_ = {};
     if (has(needs, SceneData::positions)) words_.put(bytesOf(std::vector<std::uint32_t>(recordWords)));
 }
 
@@ -337,6 +340,25 @@ void GpuScene::putMarks(const SceneAt& scene) {
     }
 }
 
+void GpuScene::putShadows(const SceneAt& scene, std::span<const ContentKey> meshOf) {
+    const ContentKey key = limn::shadowsKey(scene, meshOf);
+    if (key == shadowsKey_) return;
+    shadowsKey_ = key;
+    std::vector<glm::mat4> places;
+    const auto projections = shadowProjections(scene);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const glm::dmat4& world = scene.instances[i].worldFromMesh;
+        for (const auto& projection : projections) {
+            glm::dmat4 relativeFromMesh(glm::dmat3{world});
+            relativeFromMesh[3] =
+                glm::dvec4(glm::dvec3(world * glm::dvec4(shown_[i]->place.pivot, 1)) - projection.origin, 1);
+            places.emplace_back(projection.clipFromRelative * relativeFromMesh);
+        }
+    }
+    shadowPlaces_ = gl::Buffer(bytesOf(places), "shadow places");
+    shadowPlacesView_ = gl::BufferView(shadowPlaces_, gl::Element::float4, "shadow places");
+}
+
 void GpuScene::putCoincident(const SceneAt& scene, std::span<const ContentKey> meshOf) {
     KeyBuilder key;
     std::vector<std::uint32_t> instances;
@@ -405,6 +427,7 @@ void GpuScene::update(
     if (has(needs_, SceneData::coincidence)) putCoincident(scene, meshOf);
     putCommands();
     if (has(needs_, SceneData::marks)) putMarks(scene);
+    if (has(needs_, SceneData::shadows)) putShadows(scene, meshOf);
     connect();
     if (has(needs_, SceneData::textures)) atlas_.update(scene, limits_.maxTextureSize);
     if (has(needs_, SceneData::materials)) putMaterials(scene);
@@ -535,6 +558,7 @@ void GpuScene::bind() const {
     if (triangleUvsView_) triangleUvsView_.bind(triangleUvsUnit);
     if (materialsView_) materialsView_.bind(materialsUnit);
     if (previousView_) previousView_.bind(previousUnit);
+    if (shadowPlacesView_) shadowPlacesView_.bind(shadowPlacesUnit);
     if (lights_) lights_.bindUniform(kLightsBinding);
     if (atlas_.texture()) atlas_.texture().bindSampler(atlasUnit);
 }

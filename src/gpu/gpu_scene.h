@@ -44,6 +44,9 @@ public:
     void draw() const;       ///< every instance, in scene order
     void drawAlone() const;  ///< the same, but for drawCoincident()
 
+    /// Of all that the shadow maps of the last scene show.
+    const ContentKey& shadowsKey() const { return shadowsKey_; }
+
     /// The lines that the last scene draws itself.
     std::span<const Mark> marks() const { return marks_; }
 
@@ -78,6 +81,7 @@ private:
     void putMaterials(const SceneAt& scene);
     void putCommands();
     void putMarks(const SceneAt& scene);
+    void putShadows(const SceneAt& scene, std::span<const ContentKey> meshOf);
     void putCoincident(const SceneAt& scene, std::span<const ContentKey> meshOf);
     /// Connects new buffers to shaders and vertex pipelines.
     void connect();
@@ -97,10 +101,10 @@ private:
     std::size_t recordWords_ = 0;                ///< the number of words that are line records
     std::vector<std::uint32_t> materialTables_;  ///< of each instance: where its table begins
     std::vector<int> generations_;               ///< of the arenas behind the views below
-    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_, previous_, aloneCommands_;
+    gl::Buffer instances_, materials_, lights_, commands_, instanceNumbers_, previous_, aloneCommands_, shadowPlaces_;
     std::vector<std::byte> materialBytes_, commandBytes_, numberBytes_, aloneBytes_;
     gl::BufferView positionsView_, trianglesView_, normalsView_, uvsView_, triangleNormalsView_, triangleUvsView_,
-        wordsView_, instancesView_, materialsView_, previousView_;
+        wordsView_, instancesView_, materialsView_, previousView_, shadowPlacesView_;
     TextureAtlas atlas_;
     gl::VertexArray vertexArray_;
     std::vector<gl::VertexInput> inputs_;
@@ -108,6 +112,7 @@ private:
     CullView cullView_;
     std::vector<SeenPart> parts_;
     std::vector<Mark> marks_;
+    ContentKey shadowsKey_;
     CoincidentFaces coincident_;
     ContentKey coincidentKey_;  ///< of the meshes and places that they were found among
 };

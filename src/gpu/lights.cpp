@@ -29,48 +29,49 @@ glm::dmat4 lightPerspective(double fov, double near) {
     return m;
 }
 
-/// A view along `forward`, with an arbitrary up.
-glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& forward) {
+/// A view along `forward` from the origin, with an arbitrary up.
+glm::dmat4 lookAlong(const glm::dvec3& forward) {
     const glm::dvec3 up = std::abs(forward.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-    return glm::lookAt(position, position + forward, up);
+    return glm::lookAt(glm::dvec3(0), forward, up);
 }
 
 constexpr glm::dvec3 kCubeFaces[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-/// Clip space of the light's map from normalized view space.
-std::vector<glm::dmat4> shadowMatrices(const Light& light, const SceneInfo& scene, const View& view) {
-    // World directions and lengths, counted from the eye.
-    const glm::dmat4 relativeFromView(glm::transpose(view.viewFromRelative) / (view.unit * view.unit));
+ShadowProjection projectionOf(const Light& light, int face, const SceneInfo& scene) {
     if (light.kind == LightKind::sun) {
         // A sphere around the scene keeps the map's texels still while the camera moves.
         const double radius = scene.diagonal() / 2;
-        const glm::dvec3 forward = glm::normalize(light.direction);
-        const glm::dmat4 lightView = lookAlong(scene.bounds.centre() - view.eye - forward * radius * 2.0, forward);
         glm::dmat4 clip(1);
         clip[0][0] = clip[1][1] = 1 / radius;
-        // Depths radius … 3·radius → 1 … 0.
+        // Depths -radius … radius → 1 … 0.
         clip[2][2] = 1 / (2 * radius);
-        clip[3][2] = 1.5;
-        return {clip * lightView * relativeFromView};
+        clip[3][2] = 0.5;
+        return {scene.bounds.centre(), clip * lookAlong(glm::normalize(light.direction))};
     }
     const double near = scene.diagonal() * 1e-4;
     if (light.kind == LightKind::spot)
-        return {lightPerspective(glm::radians(light.angle), near)
-            * lookAlong(light.position - view.eye, glm::normalize(light.direction)) * relativeFromView};
-    std::vector<glm::dmat4> faces;
-    for (const auto& forward : kCubeFaces)
-        faces.push_back(lightPerspective(glm::radians(90.0), near) * lookAlong(light.position - view.eye, forward)
-            * relativeFromView);
-    return faces;
+        return {light.position,
+            lightPerspective(glm::radians(light.angle), near) * lookAlong(glm::normalize(light.direction))};
+    return {light.position, lightPerspective(glm::radians(90.0), near) * lookAlong(kCubeFaces[face])};
 }
 
 }  // namespace
 
 std::size_t lightSize() { return sizeof(GpuLight); }
 
+std::vector<ShadowProjection> shadowProjections(const SceneAt& scene) {
+    std::vector<ShadowProjection> projections;
+    for (const auto& map : shadowLayout(scene.lights).maps)
+        projections.push_back(
+            projectionOf(scene.lights[static_cast<std::size_t>(map.number / 8)], map.number % 8, scene.info));
+    return projections;
+}
+
 std::vector<std::byte> lightBytes(const SceneAt& scene, const View& view) {
     std::vector<GpuLight> lights;
     const ShadowLayout layout = shadowLayout(scene.lights);
+    // World directions and lengths, counted from the eye.
+    const glm::dmat4 relativeFromView(glm::transpose(view.viewFromRelative) / (view.unit * view.unit));
     for (const auto& light : scene.lights) {
         GpuLight gpu{};
         const glm::dvec3 towards =
@@ -88,11 +89,13 @@ std::vector<std::byte> lightBytes(const SceneAt& scene, const View& view) {
                 : light.kind == LightKind::spot ? 2 * std::tan(half) / light.shadow.resolution
                                                 : 2.0 / light.shadow.resolution;
             gpu.shadow = {texelAtUnit, light.shadow.softness, 0, 1};
-            for (const auto& map : layout.maps)
-                if (map.number / 8 == static_cast<int>(lights.size()))
-                    gpu.shadowPlace[map.number % 8] = glm::vec4(map.viewport);
-            const auto matrices = shadowMatrices(light, scene.info, view);
-            for (std::size_t m = 0; m < matrices.size(); ++m) gpu.shadowFromView[m] = matrices[m];
+            for (const auto& map : layout.maps) {
+                if (map.number / 8 != static_cast<int>(lights.size())) continue;
+                const ShadowProjection projection = projectionOf(light, map.number % 8, scene.info);
+                gpu.shadowPlace[map.number % 8] = glm::vec4(map.viewport);
+                gpu.shadowFromView[map.number % 8] = projection.clipFromRelative
+                    * glm::translate(glm::dmat4(1), view.eye - projection.origin) * relativeFromView;
+            }
         }
         lights.push_back(gpu);
     }

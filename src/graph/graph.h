@@ -49,7 +49,8 @@ enum class SceneData : unsigned {
     colors = 256,
     marks = 512,
     coincidence = 1024,
-    previous = 2048
+    previous = 2048,
+    shadows = 4096
 };
 constexpr SceneData operator|(SceneData a, SceneData b) {
     return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -113,6 +114,8 @@ struct Pass {
     /// The number of a frame's samples in which it runs (picture/sampling.h). Its images are kept until it runs again,
     /// where a pass reads them that runs in between.
     int rate = kEverySample;
+    /// It shows the scene as its lights see it: it runs only where that has changed since its images were made.
+    bool isOfLights = false;
     /// The last bits of its images depend on the canvas: its tiles are whole canvases.
     bool isTiedToCanvas = false;
     std::string shader;  ///< path below shaders/ without extension

@@ -4,6 +4,7 @@
 #include "render/identity.h"
 #include "render/report.h"
 #include "stage/meshes.h"
+#include "stage/shadow_layout.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,12 +15,16 @@
 namespace limn {
 namespace {
 
+constexpr int kAnyTexture = 16384;  // nothing here depends on the size of tiles
+
 /// A frame, as far as frames are compared.
 struct State {
     SceneAt scene;
     ContentKey pixels;
     std::vector<std::string> settings;  ///< of all techniques, as text
     std::set<ContentKey> meshes;        ///< made for it
+    ContentKey shadows;                 ///< of its shadow maps
+    int shadowMaps = 0;
 };
 
 State stateAt(const RenderConfig& config, const LoadedScene& loaded, int frame) {
@@ -34,7 +39,16 @@ State stateAt(const RenderConfig& config, const LoadedScene& loaded, int frame) 
                 state.settings.push_back(
                     fmt::format("{} = {}", field.name, field.type().text(field.constMember(settings.get()))));
         }
-    for (const auto& order : orderMeshes(loaded, state.scene, request, {}).orders) state.meshes.insert(order.key);
+    const MeshOrders orders = orderMeshes(loaded, state.scene, request, {});
+    for (const auto& order : orders.orders) state.meshes.insert(order.key);
+    std::vector<ContentKey> meshOf;
+    for (const std::size_t order : orders.orderOf) meshOf.push_back(orders.orders[order].key);
+    state.shadows = shadowsKey(state.scene, meshOf);
+    const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
+    const TilePipelines pipelines =
+        buildPipelines(config, state.scene, sceneFacts(state.scene), frame, kAnyTexture, 0, {block, block});
+    if (has(pipelines.sceneData(), SceneData::shadows))
+        state.shadowMaps = static_cast<int>(shadowLayout(state.scene.lights).maps.size());
     return state;
 }
 
@@ -97,6 +111,7 @@ std::vector<FrameChange> compareFrames(
             change.files.push_back(mesh->files.front().string());
         }
         for (const auto& mesh : now.meshes) change.meshesMade += before.meshes.contains(mesh) ? 0 : 1;
+        if (changes.size() == 1 || before.shadows != now.shadows) change.shadowMaps = now.shadowMaps;
         if (changes.size() == 1) {
             change.reasons.emplace_back("first frame");
         } else {
@@ -109,14 +124,15 @@ std::vector<FrameChange> compareFrames(
 }
 
 std::string frameChangesText(const std::vector<FrameChange>& changes) {
-    std::string text = fmt::format("{:>7}  {:<6} {:>5} {:>7}  {}\n", "frame", "drawn", "read", "meshes", "because");
+    std::string text =
+        fmt::format("{:>7}  {:<6} {:>5} {:>7} {:>8}  {}\n", "frame", "drawn", "read", "meshes", "shadows", "because");
     for (const auto& change : changes) {
         std::vector<std::string> reasons = change.reasons;
         if (changes.front().frame != change.frame && !change.files.empty())
             reasons.push_back(fmt::format("{}{} read", change.files.front(),
                 change.files.size() > 1 ? fmt::format(" and {} more", change.files.size() - 1) : ""));
-        text += fmt::format("{:>7}  {:<6} {:>5} {:>7}  {}\n", change.frame, change.isSame ? "no" : "yes",
-            change.files.size(), change.meshesMade,
+        text += fmt::format("{:>7}  {:<6} {:>5} {:>7} {:>8}  {}\n", change.frame, change.isSame ? "no" : "yes",
+            change.files.size(), change.meshesMade, change.shadowMaps,
             change.isSame ? "shows what the last one shows: its pixels are written again"
                           : fmt::format("{}", fmt::join(reasons, ", ")));
     }
@@ -131,10 +147,11 @@ std::string frameChangesJson(const std::vector<FrameChange>& changes) {
     };
     std::string text;
     for (const auto& change : changes)
-        text +=
-            fmt::format("{} {{\"frame\": {}, \"drawn\": {}, \"reasons\": {}, \"files_read\": {}, \"meshes_made\": {}}}",
-                text.empty() ? "" : ",\n", change.frame, !change.isSame, list(change.reasons), list(change.files),
-                change.meshesMade);
+        text += fmt::format(
+            "{} {{\"frame\": {}, \"drawn\": {}, \"reasons\": {}, \"files_read\": {}, \"meshes_made\": {}, "
+            "\"shadow_maps\": {}}}",
+            text.empty() ? "" : ",\n", change.frame, !change.isSame, list(change.reasons), list(change.files),
+            change.meshesMade, change.shadowMaps);
     return "{\"frames\": [\n" + text + "\n]}\n";
 }
 

@@ -25,6 +25,7 @@ struct FrameChange {
     std::vector<std::string> reasons;  ///< "the camera moves", "2 of 14 objects move" ...
     std::vector<std::string> files;    ///< mesh files that are read for it
     std::size_t meshesMade = 0;        ///< turned into triangles
+    int shadowMaps = 0;                ///< drawn
 };
 
 /// Compares the frames of a run, in its order: what is read, made and drawn for each, and why. Reads what they read.

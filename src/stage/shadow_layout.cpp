@@ -26,4 +26,25 @@ ShadowLayout shadowLayout(std::span<const Light> lights) {
     return layout;
 }
 
+ContentKey shadowsKey(const SceneAt& scene, std::span<const ContentKey> meshOf) {
+    KeyBuilder key;
+    for (const Light& light : scene.lights) {
+        key.add(light.shadow.present);
+        if (!light.shadow.present) continue;
+        key.add(light.kind).add(light.shadow.resolution).add(light.angle);
+        for (int k = 0; k < 3; ++k) key.add(light.position[k]).add(light.direction[k]);
+    }
+    key.bytes(&scene.info.bounds, sizeof scene.info.bounds);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const DrawInstance& instance = scene.instances[i];
+        key.add(meshOf[i].low).add(meshOf[i].high).bytes(&instance.worldFromMesh, sizeof instance.worldFromMesh);
+        for (const auto material : instance.materials)  // cut-outs cut holes into shadows
+            if (!scene.materials[material].cutout.empty()) {
+                const ContentKey &look = scene.materialKeys[material], &texture = scene.textureKeys[material];
+                key.add(look.low).add(look.high).add(texture.low).add(texture.high);
+            }
+    }
+    return key.key();
+}
+
 }  // namespace limn

@@ -1,7 +1,9 @@
 // The layout of all lights' shadow maps in one texture.
 #pragma once
 
+#include "base/content_key.h"
 #include "scene/scene.h"
+#include "stage/scene_at.h"
 
 #include <glm/glm.hpp>
 
@@ -22,5 +24,8 @@ struct ShadowLayout {
     std::vector<ShadowMap> maps;
 };
 ShadowLayout shadowLayout(std::span<const Light> lights);
+
+/// Of all that the maps show; they stay the same while it does. `meshOf`: the content key of each instance's mesh.
+ContentKey shadowsKey(const SceneAt& scene, std::span<const ContentKey> meshOf);
 
 }  // namespace limn

@@ -57,6 +57,49 @@ TEST(Frames, bringOnlyWhatChanged) {
     }
 }
 
+struct ShadowCase {
+    const char* what;
+    std::string camera, light, file;
+    int maps;  ///< drawn again for the second frame
+};
+
+// Maps know nothing of the camera: they are drawn again when something moves that their light sees. Either way the
+// second frame has the bits of a renderer that saw no other.
+TEST(Frames, drawShadowMapsOnlyWhereWhatTheyShowChanged) {
+    const std::string still = "direction = [-1, -2, -1]";
+    const ShadowCase cases[] = {
+        {"still", kStill, still, kFile, 0},
+        {"camera", kMoving, still, kFile, 0},
+        {"light's colour", kStill, still + "\ncolor = { keys = [[1, '#ffffff'], [2, '#ff0000']] }", kFile, 0},
+        {"light", kStill, "direction = { keys = [[1, [-1, -2, -1]], [2, [1, -2, -1]]] }", kFile, 1},
+        {"mesh", kStill, still, "small_#.obj", 1},
+    };
+    int bare = 0;
+    for (const auto& c : cases) {
+        const TemporaryFolder folder;
+        replaceFile(folder.path() / "small_1.obj", boxObj({2, 0, 0}, {3, 1, 1}));
+        replaceFile(folder.path() / "small_2.obj", boxObj({2, 0, 0}, {3, 2, 1}));
+        replaceFile(folder.path() / "floor.obj", boxObj({-4, -1, -4}, {4, 0, 4}));
+        replaceFile(folder.path() / "scene.toml",
+            fmt::format("[animation]\nframes = '1-2'\n[[mesh]]\nfile = 'floor.obj'\nname = 'floor'\n[[mesh]]\nname = "
+                        "'small'\nfile = '{}'\n[[camera]]\nposition = {}\nlook_at = [0, 0, 0]\n[[light]]\n{}\n"
+                        "shadow = {{ resolution = 256 }}\n",
+                c.file, c.camera, c.light));
+        const LoadedScene loaded = loadScene(folder.path() / "scene.toml");
+        const RenderConfig config =
+            makeConfig("[image]\nsize = [64, 48]\nsamples = 2\n[shading]\ntechnique = 'toon'\n");
+        Renderer renderer{gl::DeviceOptions{}}, fresh{gl::DeviceOptions{}};
+        renderer.render(config, loaded, 1, {});
+        const auto expected = fresh.render(config, loaded, 2, {});
+        const Counting counting;
+        const auto second = renderer.render(config, loaded, 2, {});
+        const int draws = counts().draws;
+        if (bare == 0) bare = draws;
+        EXPECT_EQ(draws, bare + c.maps) << c.what;
+        EXPECT_EQ(second.layers[0].image.pixels, expected.layers[0].image.pixels) << c.what;
+    }
+}
+
 // The same with what rays are traced against: there is no count for that tree, but the picture must follow the mesh.
 TEST(Frames, raysFollowTheMesh) {
     secondFrame(kStill, kPaint, "small_#.obj", "[ao]\ntechnique = 'ray_traced'\nradius = 2\n");

@@ -3,14 +3,14 @@
 #ifdef CUTOUTS
 #include "scene/scene.glsl"
 #include "scene/holes.glsl"
-in vec3 viewPoint;
+in vec3 pointInMesh;
 #endif
 
 flat in uvec2 seen;
 
 void main() {
 #ifdef CUTOUTS
-    if (isHole(seen.x - 1u, seen.y, viewPoint)) discard;
+    if (isHole(seen.x - 1u, seen.y, pointInMesh)) discard;
 #endif
     visibility = encodeSeen(seen);
 }

@@ -9,13 +9,13 @@ layout(location = 1) in uint instance;
 // tri_mesh.h.
 flat out uvec2 seen;
 #ifdef CUTOUTS
-out vec3 viewPoint;
+out vec3 pointInMesh;
 #endif
 
 void main() {
     gl_Position = snapToGrid(view.clipFromView * vec4(viewFromMesh(instance, meshPoint), 1.0));
 #ifdef CUTOUTS
-    viewPoint = viewFromMesh(instance, meshPoint);
+    pointInMesh = meshPoint;
 #endif
     seen = uvec2(instance + 1u, uint(gl_VertexID) - firstVertexOf(instance));
 }
