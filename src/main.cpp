@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 namespace {
 
@@ -70,6 +71,11 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         log::error("out of memory; make the picture smaller or use fewer samples");
         leave(ExitCode::outOfMemory);
+    } catch (const std::system_error& error) {
+        // Who reads our output may stop early, as `head` does: that is no failure.
+        if (error.code() == std::errc::broken_pipe) leave(ExitCode::done);
+        log::error("{}; please report this", error.what());
+        leave(ExitCode::internal);
     } catch (const std::exception& error) {
         log::error("{}; please report this", error.what());
         leave(ExitCode::internal);

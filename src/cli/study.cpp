@@ -2,11 +2,16 @@
 
 #include "study/study.h"
 #include "base/file.h"
+#include "base/log.h"
+#include "base/text.h"
 #include "cli/commands.h"
+#include "settings/document.h"
+#include "study/results.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace limn::cli {
@@ -14,6 +19,8 @@ namespace {
 
 struct StudyOptions {
     std::string file, output;
+    std::vector<std::string> settings;
+    std::optional<double> budget;
     SessionOptions session;
 };
 
@@ -25,16 +32,10 @@ Image errorPicture(const Image& picture, const Image& truth) {
     return error;
 }
 
-ExitCode runStudyCommand(const StudyOptions& options) {
+/// Places and methods of ambient occlusion, as a table.
+ExitCode runTable(const StudyOptions& options) {
     const Study study = readStudy(options.file);
     const std::filesystem::path folder = options.output;
-    if (!options.output.empty()) {
-        std::error_code failed;
-        std::filesystem::create_directories(folder, failed);
-        if (failed)
-            throw Error(ExitCode::cannotCreate, {options.output}, "cannot make this folder: " + failed.message(),
-                "choose another --output");
-    }
     const auto save = [&](std::string name, const Image& image) {
         std::replace(name.begin(), name.end(), ' ', '_');
         const Layer layer{"ambient_occlusion", {"Y"}, false, false, image};
@@ -69,13 +70,86 @@ ExitCode runStudyCommand(const StudyOptions& options) {
     return ExitCode::done;
 }
 
+void printFront(const SweepReport& report, bool byOcclusion) {
+    const auto front = paretoFront(report.points, byOcclusion);
+    fmt::print("\n{}: settings that no other beats\n{:>9} {:>8} {:>8} {:>8}  {}\n",
+        byOcclusion ? "ambient occlusion" : "picture", "ms", "RMSE", "bias", "P99", "settings");
+    for (const auto i : front) {
+        const StudyPoint& point = report.points[i];
+        const Deviation& off = byOcclusion ? *point.occlusion : point.picture;
+        fmt::print("{:9.1f} {:8.4f} {:+8.4f} {:8.4f}  {}\n", point.milliseconds, off.rmse, off.bias, off.p99,
+            presentable(settingsText(point.settings)));
+    }
+    const FrontFit fit = fitFront(report.points, front, byOcclusion);
+    if (fit.points > 0)
+        fmt::print("along it the error is about {:.3g} · seconds^{:.2f}, within a factor of {:.2f}\n",
+            fit.factor * std::pow(1000.0, fit.exponent), fit.exponent, std::pow(10.0, fit.spread));
+    for (const double seconds : {0.1, 1.0, 10.0}) {
+        const StudyPoint* best = nullptr;
+        for (const auto i : front)
+            if (report.points[i].milliseconds <= 1000 * seconds) best = &report.points[i];
+        if (best)
+            fmt::print("best within {} s: {}, error {:.4f}\n", seconds, presentable(settingsText(best->settings)),
+                errorOf(*best, byOcclusion));
+    }
+}
+
+/// Every knob of a config.
+ExitCode runConfig(const StudyOptions& options, Node document) {
+    for (const auto& setting : options.settings) applySetting(document, setting);
+    SweepSettings settings = takeSweepSettings(document);
+    if (options.budget) settings.seconds = *options.budget;
+    Session session(options.session);
+    SweepHooks hooks;
+    const std::filesystem::path folder = options.output;
+    if (!options.output.empty()) {
+        requireWritable(folder / "index.html");
+        hooks.known = readFigures(folder, sweepIdentity(session, parseRenderConfig(document, options.file), settings));
+        hooks.onPoint = [&](const SweepReport& report, const StudyPoint& point, const PointPictures& pictures) {
+            writePictures(folder, point, pictures);
+            writeFigures(folder, report);
+        };
+    } else {
+        hooks.onPoint = [](const auto&, const auto&, const auto&) {};
+    }
+    const SweepReport report = runSweep(session, std::move(document), options.file, settings, std::move(hooks));
+    fmt::print("{}: {} settings at {}×{} pixels, {}; medians of {}\n", options.file, report.points.size(),
+        report.size.x, report.size.y, report.device, settings.repeat);
+    if (report.truthError) fmt::print("standard error of true ambient occlusion: {:.4f}\n", *report.truthError);
+    if (report.hasOcclusion()) printFront(report, true);
+    printFront(report, false);
+    for (const auto& note : report.notes) log::warning("{}", note);
+    if (options.output.empty()) return ExitCode::done;
+    writeResults(folder, report);
+    log::info("Saved: '{}'", (folder / "index.html").string());
+    return ExitCode::done;
+}
+
+ExitCode runStudyCommand(const StudyOptions& options) {
+    Node document = readDocument(options.file);
+    if (!document.find("place") && !document.find("method")) return runConfig(options, std::move(document));
+    if (options.budget || !options.settings.empty())
+        throw Error(ExitCode::usage, {options.file}, "is a table of places and methods: --set and --budget go with a config",
+            "leave them out");
+    return runTable(options);
+}
+
 }  // namespace
 
 void addStudy(CLI::App& app, Chosen& chosen) {
     auto options = std::make_shared<StudyOptions>();
     auto* command = app.add_subcommand("study", "Measure what accuracy costs in time, against the ray-traced truth");
-    command->add_option("FILE", options->file, "Study file: places and methods")->required();
-    command->add_option("--output", options->output, "Folder for study.csv and the pictures")->type_name("DIR");
+    command
+        ->add_option("CONFIG", options->file,
+            "Config, with a [study] table if some things only are to be studied; or a table of places and methods")
+        ->required();
+    command->add_option("--output", options->output, "Folder for the page, the figures and the pictures; a study that "
+                                                     "was interrupted there goes on")
+        ->type_name("DIR");
+    command->add_option("--budget", options->budget, "Seconds to spend, the truth aside; 600 without it")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--set", options->settings, "Change a setting: image.size=[640,360]")->type_name("KEY=VALUE");
     addDeviceFlags(*command, options->session);
     command->callback([options, &chosen] { chosen = [options] { return runStudyCommand(*options); }; });
 }

@@ -113,7 +113,8 @@ public:
             description += fmt::format("{}: {}\n", key, value);
             if (key == "Software") spec.attribute("Software", value);
         }
-        spec.attribute("ImageDescription", description);
+        // The library stumbles over an empty one.
+        if (!description.empty()) spec.attribute("ImageDescription", description);
         output_ = OIIO::ImageOutput::create(format_, &proxy_);
         check(output_ && output_->open("memory." + format_, spec));
     }

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -24,19 +25,54 @@ std::uint32_t mixBits(std::uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/// Cosine-weighted directions around z, for the 16 pixels of a 4×4 tile one after the other. Every block of 4×4 pixels,
-/// aligned or not, shares one additive recurrence (by the plane's golden ratio, 2^32/1.3247… and its square), so that a
-/// filter over it sees 16·n evenly spread directions. Each sample continues the last one's sequence, and the seed
-/// shifts them all.
+std::uint32_t reversed(std::uint32_t x) {
+    x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    return __builtin_bswap32(x);
+}
+
+/// The second coordinate of Sobol's (0, 2)-sequence; the first is the reversed number itself.
+std::uint32_t sobol(std::uint32_t number) {
+    std::uint32_t x = reversed(number);
+    x ^= x << 1 & 0xaaaaaaaau;
+    x ^= x << 2 & 0xccccccccu;
+    x ^= x << 4 & 0xf0f0f0f0u;
+    x ^= x << 8 & 0xff00ff00u;
+    return x ^ x << 16;
+}
+
+/// Turns each digit at random by the digits above it, which keeps nets nets (Owen 1995; hashed as by Burley, "Practical
+/// Hash-based Owen Scrambling", JCGT 2020).
+std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
+    x = reversed(x) + seed;
+    x ^= x * 0x6c50b47cu;
+    x ^= x * 0xb82f1e52u;
+    x ^= x * 0xc7afe638u;
+    x ^= x * 0x8d22f6e6u;
+    return reversed(x);
+}
+
+/// Cosine-weighted directions around z, for the 16 pixels of a 4×4 tile one after the other. They are points of a
+/// (0, 2)-sequence whose number is (sample xor pixel) · rays + ray: evenly spread over a pixel's rays and samples, and
+/// over the rays of any block of 4×4 pixels, which a filter joins. What is finer than a block's own points differs at
+/// random between samples.
 std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed) {
     std::vector<glm::vec3> directions;
     directions.reserve(16 * static_cast<std::size_t>(rays));
-    const std::uint32_t first = static_cast<std::uint32_t>(sample) * 16 * static_cast<std::uint32_t>(rays);
-    for (std::uint32_t i = first; i < first + 16 * static_cast<std::uint32_t>(rays); ++i) {
-        const double u = (i * 3242174889u + mixBits(seed * 2 + 1)) * 0x1p-32,
-                     angle = (i * 2447445414u + mixBits(seed * 2 + 2)) * (0x1p-31 * 3.14159265358979);
-        directions.emplace_back(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle), std::sqrt(1 - u));
-    }
+    const int rayBits = static_cast<int>(std::bit_width(static_cast<unsigned>(rays - 1)));
+    const auto s = static_cast<std::uint32_t>(sample);
+    const int known = rayBits + std::max(4, static_cast<int>(std::bit_width(s)));
+    const std::uint32_t finer = known < 32 ? ~0u >> known : 0;
+    for (std::uint32_t pixel = 0; pixel < 16; ++pixel)
+        for (std::uint32_t ray = 0; ray < static_cast<std::uint32_t>(rays); ++ray) {
+            const std::uint32_t number = (s ^ pixel) << rayBits | ray;
+            const std::uint32_t first = reversed(number) ^ (mixBits(2 * s + 1) & finer),
+                                second = sobol(number) ^ (mixBits(2 * s + 2) & finer);
+            const double u = scrambled(first, mixBits(2 * seed + 1)) * 0x1p-32,
+                         angle = scrambled(second, mixBits(2 * seed + 2)) * (0x1p-31 * 3.14159265358979);
+            directions.emplace_back(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle), std::sqrt(1 - u));
+        }
     return directions;
 }
 

@@ -3,10 +3,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "picture/directions.h"
-#include "rays/ambient_occlusion.h"
 #include "settings/document.h"
-#include "study/shell.h"
 
 #include <fmt/format.h>
 
@@ -156,23 +153,6 @@ struct Shot {
     std::vector<float> truth, shell;  ///< visibility; negative on the background
 };
 
-Deviation compare(const std::vector<float>& picture, const std::vector<float>& truth) {
-    std::vector<double> off;
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        if (truth[i] < 0) continue;
-        const double d = static_cast<double>(picture[i]) - static_cast<double>(truth[i]);
-        sum += d;
-        squares += d * d;
-        off.push_back(std::abs(d));
-    }
-    if (off.empty()) return {};
-    const auto n = static_cast<double>(off.size());
-    const auto rank = off.begin() + static_cast<std::ptrdiff_t>(0.99 * (n - 1));
-    std::nth_element(off.begin(), rank, off.end());
-    return {std::sqrt(squares / n), sum / n, *rank};
-}
-
 /// Runs the methods at one place.
 class PlaceRunner {
 public:
@@ -287,44 +267,11 @@ private:
             static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
         const RenderConfig surfaces = config(camera, Node{}, {}, "'depth', 'normal_geometric'");
         const RenderedFrame seen = session_.draw(surfaces, first(surfaces), wide);
-        const auto shell = buildShell(
-            seen.view, sceneInfo(session_.load(surfaces)), seen.layers[0].image.pixels, seen.layers[1].image.pixels);
-        shot.shell = traceShell(*shell, seen);
+        shot.shell = shellVisibility(
+            seen, sceneInfo(session_.load(surfaces)), place_.radius, settings_.rays, settings_.size);
         for (std::size_t i = 0; i < shot.shell.size(); ++i)
             if (shot.truth[i] < 0) shot.shell[i] = -1;
         return shots_[camera] = std::move(shot);
-    }
-
-    /// Traces rays from the picture's own pixels, rows from the upper left.
-    std::vector<float> traceShell(const RayScene& shell, const RenderedFrame& seen) const {
-        const glm::ivec2 size = seen.view.region.size;
-        const auto pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-        std::vector<float> depth(pixels), normals(2 * pixels), visibility(pixels, 1.0f);
-        const auto turned = [&](int x, int y) {
-            return static_cast<std::size_t>(size.y - 1 - y) * static_cast<std::size_t>(size.x)
-                + static_cast<std::size_t>(x);
-        };
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) {
-                const std::size_t from = turned(x, y),
-                                  to = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x)
-                    + static_cast<std::size_t>(x);
-                const float z = seen.layers[0].image.pixels[from];
-                depth[to] =
-                    std::isfinite(z) ? static_cast<float>(static_cast<double>(z) * seen.view.unit) : kBackgroundDepth;
-                const float* n = &seen.layers[1].image.pixels[3 * from];
-                const glm::vec2 encoded = encodeDirection({n[0], n[1], n[2]});
-                normals[2 * to] = encoded.x;
-                normals[2 * to + 1] = encoded.y;
-            }
-        const int guard = seen.view.guard;
-        traceAmbientOcclusion(shell, seen.view, {depth, normals},
-            {seen.view.normalized(place_.radius), Falloff::none, settings_.rays}, {glm::ivec2(guard), settings_.size},
-            visibility, {});
-        std::vector<float> picture;
-        for (int y = 0; y < settings_.size.y; ++y)
-            for (int x = 0; x < settings_.size.x; ++x) picture.push_back(visibility[turned(x + guard, y + guard)]);
-        return picture;
     }
 
     StudyRow draw(const StudyMethod& method, const std::vector<std::string>& settings, const std::string& camera) {

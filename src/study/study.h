@@ -21,7 +21,7 @@
 //     milliseconds = 15           # settings that take longer do not count
 #pragma once
 
-#include "job/session.h"
+#include "study/truth.h"
 
 #include <filesystem>
 #include <functional>
@@ -58,11 +58,6 @@ struct Study {
     StudySettings settings;
     std::vector<StudyPlace> places;
     std::vector<StudyMethod> methods;
-};
-
-/// Errors over the pixels that show a surface; visibility, 0 … 1.
-struct Deviation {
-    double rmse = 0, bias = 0, p99 = 0;
 };
 
 struct StudyRow {
