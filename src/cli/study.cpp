@@ -109,6 +109,7 @@ ExitCode runConfig(const StudyOptions& options, Node document) {
             writePictures(folder, point, pictures);
             writeFigures(folder, report);
         };
+        hooks.onTruth = [&](const Image& picture, const Image& occlusion) { writeTruth(folder, picture, occlusion); };
     } else {
         hooks.onPoint = [](const auto&, const auto&, const auto&) {};
     }
@@ -129,8 +130,8 @@ ExitCode runStudyCommand(const StudyOptions& options) {
     Node document = readDocument(options.file);
     if (!document.find("place") && !document.find("method")) return runConfig(options, std::move(document));
     if (options.budget || !options.settings.empty())
-        throw Error(ExitCode::usage, {options.file}, "is a table of places and methods: --set and --budget go with a config",
-            "leave them out");
+        throw Error(ExitCode::usage, {options.file},
+            "is a table of places and methods: --set and --budget go with a config", "leave them out");
     return runTable(options);
 }
 
@@ -143,8 +144,10 @@ void addStudy(CLI::App& app, Chosen& chosen) {
         ->add_option("CONFIG", options->file,
             "Config, with a [study] table if some things only are to be studied; or a table of places and methods")
         ->required();
-    command->add_option("--output", options->output, "Folder for the page, the figures and the pictures; a study that "
-                                                     "was interrupted there goes on")
+    command
+        ->add_option("--output", options->output,
+            "Folder for the page, the figures and the pictures; a study that "
+            "was interrupted there goes on")
         ->type_name("DIR");
     command->add_option("--budget", options->budget, "Seconds to spend, the truth aside; 600 without it")
         ->type_name("SECONDS")

@@ -76,10 +76,12 @@ std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed
     return directions;
 }
 
-/// The pixel's number among the 16.
+/// The pixel's number among the 16. The last two bits differ in each row, in each column, and in almost every block of
+/// 2×2 pixels: their rays are evenly spread as well.
 std::size_t placeInTile(glm::ivec2 pixel) {
-    constexpr std::size_t kOrder[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    return kOrder[pixel.y & 3][pixel.x & 3];
+    constexpr unsigned kTurn[4] = {0, 2, 1, 3};
+    const auto x = static_cast<unsigned>(pixel.x) & 3, y = static_cast<unsigned>(pixel.y) & 3;
+    return (x ^ kTurn[y]) | y << 2;
 }
 
 /// Two vectors that complete a unit normal to a basis (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT

@@ -47,16 +47,19 @@ struct Scale {
 std::string axes(const Scale& x, const Scale& y, std::string_view measure) {
     std::string svg;
     for (const double tick : x.ticks())
-        svg += fmt::format("<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-                           "text-anchor=\"middle\">{4}</text>\n",
+        svg += fmt::format(
+            "<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+            "text-anchor=\"middle\">{4}</text>\n",
             x.at(tick), kTop, kHeight - kBottom, kHeight - kBottom + 18, numberText(static_cast<float>(tick)));
     for (const double tick : y.ticks())
-        svg += fmt::format("<path d=\"M{1} {0:.1f}H{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
-                           "text-anchor=\"end\">{5}</text>\n",
+        svg += fmt::format(
+            "<path d=\"M{1} {0:.1f}H{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+            "text-anchor=\"end\">{5}</text>\n",
             y.at(tick), kLeft, kWidth - kRight, kLeft - 8, y.at(tick) + 4, numberText(static_cast<float>(tick)));
     return svg
-        + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">seconds a frame</text>\n<text "
-                      "transform=\"translate(20 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+        + fmt::format(
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">seconds a frame</text>\n<text "
+            "transform=\"translate(20 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
             (kLeft + kWidth - kRight) / 2, kHeight - 14, (kTop + kHeight - kBottom) / 2, measure);
 }
 
@@ -101,8 +104,7 @@ std::string frontSvg(const SweepReport& report) {
     for (const auto& [name, color] : colors) {
         const double at = kTop + 20 * static_cast<double>(color);
         svg += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
-            kWidth - kRight + 24, at, kColors[color % std::size(kColors)], kWidth - kRight + 36, at + 4,
-            escaped(name));
+            kWidth - kRight + 24, at, kColors[color % std::size(kColors)], kWidth - kRight + 36, at + 4, escaped(name));
     }
     return svg + "</svg>\n";
 }

@@ -66,7 +66,8 @@ std::optional<Knob> knobOf(const Field& field, const void* object, const std::st
         double number = 0;
         type.toNumbers(field.constMember(object), &number);
         for (const double value : ladder(number, field.info, type.name == "integer"))
-            knob.values.push_back(numberText(type.name == "integer" ? value : static_cast<double>(static_cast<float>(value))));
+            knob.values.push_back(
+                numberText(type.name == "integer" ? value : static_cast<double>(static_cast<float>(value))));
     } else {
         return std::nullopt;
     }
@@ -102,6 +103,11 @@ std::string sharedSettings(const Technique& technique, const TechniqueChoice& of
         text += fmt::format(", {} = {}", field.name, field.type().text(field.constMember(of.params.get())));
     }
     return text;
+}
+
+const Node* filterOf(const Node& document) {
+    const Node* ao = document.find("ao");
+    return ao ? ao->find("filter") : nullptr;
 }
 
 std::shared_ptr<const LoadedScene> changedScene(const LoadedScene& loaded, const Settings& settings) {
@@ -150,8 +156,9 @@ const Technique* StudyConfig::occlusion() const {
 std::optional<Settings> StudyConfig::tracedOcclusion(int rays) const {
     const Technique *technique = occlusion(), *traced = findTechnique("ao", "ray_traced");
     if (!technique || !findField(technique->schema, "radius")) return std::nullopt;
-    return Settings{{"ao", fmt::format("{{ technique = \"ray_traced\", rays = {}{} }}", rays,
-                               sharedSettings(*traced, at({}).config.in("ao").front(), "rays"))}};
+    return Settings{{"ao",
+        fmt::format("{{ technique = \"ray_traced\", rays = {}{} }}", rays,
+            sharedSettings(*traced, at({}).config.in("ao").front(), "rays"))}};
 }
 
 std::vector<Settings> StudyConfig::alternatives() const {
@@ -163,10 +170,21 @@ std::vector<Settings> StudyConfig::alternatives() const {
         if (other->slot != "ao" || !findField(other->schema, "radius")) continue;
         const std::string ao = fmt::format("technique = \"{}\"{}", other->name, sharedSettings(*other, choice, ""));
         all.push_back({{"ao", fmt::format("{{ {} }}", ao)}});
-        for (const auto* filter : allTechniques())
-            if (filter->slot == "filter")
-                all.push_back(
-                    {{"ao", fmt::format("{{ {}, filter = {{ technique = \"{}\" }} }}", ao, filter->name)}});
+        if (const Node* filter = filterOf(document_))
+            all.push_back({{"ao", fmt::format("{{ {}, filter = {} }}", ao, inlineToml(*filter))}});
+    }
+    return all;
+}
+
+std::vector<Settings> StudyConfig::otherFilters(const Settings& settings) const {
+    std::vector<Settings> all;
+    if (at(settings).config.in("ao").empty()) return all;
+    Settings bare = settings;
+    std::erase_if(bare, [](const auto& entry) { return entry.first.starts_with("ao.filter"); });
+    for (const auto* filter : allTechniques()) {
+        if (filter->slot != "filter") continue;
+        all.push_back(bare);
+        all.back()["ao.filter"] = fmt::format("{{ technique = \"{}\" }}", filter->name);
     }
     return all;
 }
@@ -224,7 +242,9 @@ std::vector<Knob> StudyConfig::knobs(const Settings& settings, int frame) const 
             try {
                 matters = planKey(at(turned), frame) != now || matters;
                 return false;
-            } catch (const Errors&) { return true; } catch (const Error&) { return true; }
+            } catch (const Errors&) { return true; } catch (const Error&) {
+                return true;
+            }
         });
         const auto place = std::find(knob.values.begin(), knob.values.end(), current);
         knob.current = static_cast<std::size_t>(place - knob.values.begin());

@@ -43,8 +43,10 @@ public:
     /// The knobs of what would run with these settings: those that change the plan, or the meshes of cages.
     std::vector<Knob> knobs(const Settings& settings, int frame) const;
 
-    /// Other techniques that find the same as the config's, with and without each filter: settings that replace [ao].
+    /// Techniques that find the same as the config's, with and without its filter: settings that replace [ao].
     std::vector<Settings> alternatives() const;
+    /// The same settings with each filter, where they draw ambient occlusion.
+    std::vector<Settings> otherFilters(const Settings& settings) const;
     /// The settings with which [ao] is ray traced as the config's technique would have it; nullopt where that has no
     /// radius, and so finds something else.
     std::optional<Settings> tracedOcclusion(int rays) const;

@@ -11,7 +11,7 @@
 namespace limn {
 namespace {
 
-constexpr int kSeeds = 8;  // for the spread of an estimate
+constexpr int kSeeds = 8;                            // for the spread of an estimate
 constexpr std::uint64_t kMostTriangles = 6'000'000;  // of geometry that counts as the limit
 
 double median(std::vector<double> values) {
@@ -81,13 +81,13 @@ Settings with(Settings settings, const Settings& more) {
 
 }  // namespace
 
-Measurer::Measurer(
-    Session& session, const StudyConfig& study, const SweepSettings& settings, std::vector<Shot> shots)
+Measurer::Measurer(Session& session, const StudyConfig& study, const SweepSettings& settings, std::vector<Shot> shots)
     : session_(session), study_(study), settings_(settings), shots_(std::move(shots)) {
     const Variant variant = study_.at({});
     hasOcclusion_ = study_.tracedOcclusion(1).has_value();
     const SceneAt scene = sceneAt(*variant.scene, frameRequest(variant.config, shots_.front().frame));
-    hasCages_ = std::any_of(scene.instances.begin(), scene.instances.end(), [](const auto& i) { return i.isSubdivided; });
+    hasCages_ =
+        std::any_of(scene.instances.begin(), scene.instances.end(), [](const auto& i) { return i.isSubdivided; });
 }
 
 RenderedFrame Measurer::draw(const Variant& variant, const Shot& shot, std::vector<const Aov*> aovs, int guard) {
@@ -115,36 +115,40 @@ Settings Measurer::finest(Settings settings, const Shot& shot) const {
 }
 
 void Measurer::findOcclusion(Truth& truth, const Shot& shot) {
-    constexpr int kSamples = 64;
-    const int rays = std::max(1, settings_.rays / kSamples);
+    constexpr int kSamples = 32;  // of each half
+    const int rays = std::max(1, settings_.rays / (2 * kSamples));
     const Settings base{{"accuracy", "\"exact\""}, {"image.samples", "1"}};
     const Variant plain = study_.at(base);
-    const int guard = static_cast<int>(
-        std::ceil(plain.config.image.guard * std::max(plain.config.image.size.x, plain.config.image.size.y))) / 2 * 2;
+    const int guard = static_cast<int>(std::ceil(
+                          plain.config.image.guard * std::max(plain.config.image.size.x, plain.config.image.size.y)))
+        / 2 * 2;
     const std::vector<const Aov*> surfaces{&aov::depth, &aov::normalGeometric};
     truth.classes = classifyPixels(draw(plain, shot, surfaces));
     Settings traced = with(base, *study_.tracedOcclusion(rays));
     traced["image.samples"] = traced["image.ao_samples"] = std::to_string(kSamples);
+    // Two halves with seeds of their own: what they differ by is how far their mean may be off.
     const Variant variant = study_.at(traced);
-    const Aov* error = findAov("ambient_occlusion_error");
-    const RenderedFrame frame = draw(variant, shot, {&aov::ambientOcclusion, error});
-    truth.occlusion = frame.layers[0].image.pixels;
+    traced["image.seed"] = "1";
+    truth.occlusion = draw(variant, shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
+    const auto other = draw(study_.at(traced), shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
     double squares = 0, count = 0;
     for (std::size_t i = 0; i < truth.occlusion.size(); ++i) {
+        const double off = 0.5 * (static_cast<double>(truth.occlusion[i]) - static_cast<double>(other[i]));
+        truth.occlusion[i] = 0.5f * (truth.occlusion[i] + other[i]);
         if (truth.classes[i] == PixelClass::background) {
             truth.occlusion[i] = -1;
             continue;
         }
-        const double one = static_cast<double>(frame.layers[1].image.pixels[i]);
-        squares += one * one / kSamples;
+        squares += off * off;
         ++count;
     }
     truthError_ = std::max(truthError_, std::sqrt(squares / std::max(count, 1.0)));
 
     const Field* radius = findField(variant.config.in("ao").front().technique->schema, "radius");
-    const Length length = *static_cast<const Length*>(radius->constMember(variant.config.in("ao").front().params.get()));
-    truth.shell = shellVisibility(draw(plain, shot, surfaces, guard), sceneInfo(*plain.scene), length, settings_.rays,
-        plain.config.image.size);
+    const Length length =
+        *static_cast<const Length*>(radius->constMember(variant.config.in("ao").front().params.get()));
+    truth.shell = shellVisibility(
+        draw(plain, shot, surfaces, guard), sceneInfo(*plain.scene), length, settings_.rays, plain.config.image.size);
     for (std::size_t i = 0; i < truth.shell.size(); ++i)
         if (truth.occlusion[i] < 0) truth.shell[i] = -1;
 }
@@ -168,6 +172,15 @@ const Measurer::Truth& Measurer::truth(std::size_t number) {
         truth.surface = draw(study_.at(finest({{"accuracy", "\"exact\""}, {"image.samples", "1"}}, shot)), shot,
             {&aov::depth, &aov::normalGeometric});
     return truth;
+}
+
+std::pair<Image, Image> Measurer::truePictures() {
+    const Truth& known = truth(0);
+    const glm::ivec2 size = study_.at({}).config.image.size;
+    std::pair<Image, Image> pictures{{size.x, size.y, 3, known.picture}, {}};
+    if (hasOcclusion_) pictures.second = {size.x, size.y, 1, known.occlusion};
+    for (float& value : pictures.second.pixels) value = value < 0 ? 1 : value;
+    return pictures;
 }
 
 void Measurer::time(const Variant& variant, StudyPoint& point) {
@@ -218,8 +231,8 @@ GeometryError Measurer::geometryError(const RenderedFrame& seen, const RenderedF
         for (int x = 0; x < truth.width; ++x) {
             const double a = static_cast<double>(*depth.at(x, y)), b = static_cast<double>(*truth.at(x, y));
             if (!std::isfinite(a) || !std::isfinite(b)) continue;
-            const glm::dvec2 ray = (glm::dvec2(view.region.origin + glm::ivec2(x, truth.height - 1 - y)) + 0.5)
-                    * view.rayScale
+            const glm::dvec2 ray =
+                (glm::dvec2(view.region.origin + glm::ivec2(x, truth.height - 1 - y)) + 0.5) * view.rayScale
                 + view.rayOffset;
             const float* n = normals.at(x, y);
             // Along the normal: depths differ a lot where a surface is seen at a slant.

@@ -22,6 +22,8 @@ public:
     double timeOnce(const Settings& settings);
 
     double truthError() const { return truthError_; }
+    /// The true pictures of the first shot: display-encoded colours, and visibility (empty without ambient occlusion).
+    std::pair<Image, Image> truePictures();
     const std::vector<Shot>& shots() const { return shots_; }
 
 private:

@@ -29,9 +29,17 @@ Json jsonOf(const Deviation& deviation) {
     return {{"rmse", deviation.rmse}, {"bias", deviation.bias}, {"p99", deviation.p99}};
 }
 
+/// What is set besides the technique, which the group names.
+std::string titleOf(const StudyPoint& point) {
+    Settings rest = point.settings;
+    const bool isOther = rest.erase("ao") > 0;
+    rest.erase("ao.filter");
+    return isOther && rest.empty() ? "by default" : settingsText(rest);
+}
+
 Json jsonOf(const StudyPoint& point) {
     Json json{{"name", point.name}, {"kind", point.kind}, {"knob", point.knob}, {"group", point.group},
-        {"title", settingsText(point.settings)}, {"settings", point.settings}, {"lines", point.lines},
+        {"title", titleOf(point)}, {"settings", point.settings}, {"lines", point.lines},
         {"milliseconds", point.milliseconds}, {"low", point.low}, {"high", point.high}, {"first", point.first},
         {"runs", point.runs}, {"slots", Json::object()}, {"picture", jsonOf(point.picture)}};
     for (const auto& [slot, milliseconds] : point.slots) json["slots"][slot] = milliseconds;
@@ -79,8 +87,8 @@ StudyPoint pointOf(const Json& json) {
         json.at("occlusion").at("border").get_to(point.occlusion->border);
     }
     if (json.contains("split"))
-        point.split = {json.at("split").at("unseen"), json.at("split").at("estimator"),
-            json.at("split").at("sampling")};
+        point.split = {
+            json.at("split").at("unseen"), json.at("split").at("estimator"), json.at("split").at("sampling")};
     if (json.contains("geometry")) point.geometry = {json.at("geometry").at("rmse"), json.at("geometry").at("p99")};
     return point;
 }
@@ -132,6 +140,10 @@ Json imagesOf(const std::filesystem::path& folder, const SweepReport& report) {
             if (fileExists(file))
                 images[point.name][picture] = "data:image/jpeg;base64," + base64(MappedFile(file).text());
         }
+    for (const auto& [picture, file] :
+        {std::pair("beauty", "truth.png"), std::pair("occlusion", "truth_occlusion.png")})
+        if (fileExists(folder / "pictures" / file))
+            images["truth"][picture] = "data:image/png;base64," + base64(MappedFile(folder / "pictures" / file).text());
     return images;
 }
 
@@ -178,8 +190,7 @@ std::string withinScript(std::string json) {
 void writePictures(const std::filesystem::path& folder, const StudyPoint& point, const PointPictures& pictures) {
     EncodeOptions options;
     options.quality = 85;
-    const Image* images[] = {
-        &pictures.beauty, &pictures.beautyError, &pictures.occlusion, &pictures.occlusionError};
+    const Image* images[] = {&pictures.beauty, &pictures.beautyError, &pictures.occlusion, &pictures.occlusionError};
     for (std::size_t i = 0; i < kPictures.size(); ++i) {
         if (images[i]->pixels.empty()) continue;
         Layer layer{"beauty", {"R", "G", "B"}, i == 0, false, *images[i]};
@@ -188,6 +199,19 @@ void writePictures(const std::filesystem::path& folder, const StudyPoint& point,
         const auto file = pictureFile(folder, point, kPictures[i]);
         replaceFile(file, encodeImage(*imageFormat(file), {&layer, 1}, {}, options));
     }
+}
+
+void writeTruth(const std::filesystem::path& folder, const Image& picture, const Image& occlusion) {
+    const auto write = [&](const char* name, const Image& image) {
+        if (image.pixels.empty()) return;
+        const auto file = folder / "pictures" / name;
+        const Layer layer{"truth",
+            image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"}, false, false,
+            image};
+        replaceFile(file, encodeImage(*imageFormat(file), {&layer, 1}, {}, {}));
+    };
+    write("truth.png", picture);
+    write("truth_occlusion.png", occlusion);
 }
 
 void writeFigures(const std::filesystem::path& folder, const SweepReport& report) {

@@ -10,6 +10,9 @@ namespace limn {
 /// Writes the pictures of a point into `folder`/pictures; none without pictures.
 void writePictures(const std::filesystem::path& folder, const StudyPoint& point, const PointPictures& pictures);
 
+/// pictures/truth.png and pictures/truth_occlusion.png.
+void writeTruth(const std::filesystem::path& folder, const Image& picture, const Image& occlusion);
+
 /// study.json: everything that a later run needs to go on.
 void writeFigures(const std::filesystem::path& folder, const SweepReport& report);
 /// The points in `folder` of a study with this identity; none where there is no such study, or it cannot be read.

@@ -267,8 +267,8 @@ private:
             static_cast<int>(std::ceil(ImageSettings{}.guard * std::max(settings_.size.x, settings_.size.y))) / 2 * 2;
         const RenderConfig surfaces = config(camera, Node{}, {}, "'depth', 'normal_geometric'");
         const RenderedFrame seen = session_.draw(surfaces, first(surfaces), wide);
-        shot.shell = shellVisibility(
-            seen, sceneInfo(session_.load(surfaces)), place_.radius, settings_.rays, settings_.size);
+        shot.shell =
+            shellVisibility(seen, sceneInfo(session_.load(surfaces)), place_.radius, settings_.rays, settings_.size);
         for (std::size_t i = 0; i < shot.shell.size(); ++i)
             if (shot.truth[i] < 0) shot.shell[i] = -1;
         return shots_[camera] = std::move(shot);

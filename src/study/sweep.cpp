@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace limn {
 namespace {
@@ -23,8 +24,8 @@ constexpr Field kSweep[] = {
     field<&SweepSettings::techniques>("techniques", {.keyable = false}, "Try other techniques of ambient occlusion."),
     field<&SweepSettings::samples>(
         "samples", {.min = 1, .max = 4096, .keyable = false}, "Samples per pixel of the true picture."),
-    field<&SweepSettings::rays>("rays", {.min = 64, .max = 65536, .keyable = false},
-        "Rays per pixel of true ambient occlusion."),
+    field<&SweepSettings::rays>(
+        "rays", {.min = 64, .max = 65536, .keyable = false}, "Rays per pixel of true ambient occlusion."),
     field<&SweepSettings::repeat>(
         "repeat", {.min = 1, .max = 1000, .keyable = false}, "Timed runs of each setting; their median counts."),
     field<&SweepSettings::seconds>("seconds", {.min = 1, .keyable = false}, "Time to spend, the truth aside."),
@@ -47,17 +48,20 @@ class Sweeper {
 public:
     Sweeper(Session& session, const StudyConfig& study, const SweepSettings& settings, std::vector<Shot> shots,
         SweepHooks& hooks, SweepReport& report)
-        : study_(study), settings_(settings), hooks_(hooks), report_(report),
+        : study_(study),
+          settings_(settings),
+          hooks_(hooks),
+          report_(report),
           measurer_(session, study, settings, std::move(shots)) {}
 
     void run() {
         try_({}, "config", "");
         const bool byOcclusion = report_.hasOcclusion();
+        if (settings_.techniques)
+            for (const auto& other : study_.alternatives()) try_(other, "technique", "");
         for (const auto& knob : allowed(study_.knobs({}, frame())))
             for (std::size_t v = 0; v < knob.values.size(); ++v)
                 if (v != knob.current) try_({{knob.key, knob.values[v]}}, "knob", knob.key);
-        if (settings_.techniques)
-            for (const auto& other : study_.alternatives()) try_(other, "technique", "");
         refine(byOcclusion);
         if (byOcclusion) splitFront();
         if (untried_ > 0)
@@ -77,9 +81,17 @@ private:
         return knobs;
     }
 
+    /// Different settings may come to the same config.
+    std::string identityOf(const Settings& settings) const {
+        std::string identity = study_.at(settings).config.hash;
+        for (const auto& [key, value] : settings)
+            if (key.starts_with("scene.")) identity += " " + key + "=" + value;
+        return identity;
+    }
+
     /// Measures a setting unless it is known, or time is up.
     void try_(const Settings& settings, const std::string& kind, const std::string& knob) {
-        if (!tried_.insert(settings).second) return;
+        if (!tried_.insert(identityOf(settings)).second) return;
         const auto known = std::find_if(hooks_.known.begin(), hooks_.known.end(),
             [&](const StudyPoint& point) { return point.settings == settings; });
         if (known != hooks_.known.end()) {
@@ -94,6 +106,10 @@ private:
         try {
             if (report_.points.empty()) measurer_.timeOnce(settings);  // finds what cannot be drawn before the truth
             StudyPoint point = measurer_.measure(settings, pictures);
+            if (hooks_.onTruth && !std::exchange(isTruthTold_, true)) {
+                const auto [picture, occlusion] = measurer_.truePictures();
+                hooks_.onTruth(picture, occlusion);
+            }
             point.kind = kind;
             point.knob = knob;
             point.group = groupOf(study_.at(settings).config);
@@ -128,8 +144,16 @@ private:
             std::set<std::size_t> best;
             for (const bool which : {byOcclusion, false})
                 for (const auto i : paretoFront(report_.points, which)) best.insert(i);
-            for (const auto i : best) {
+            // From both ends: what is cheap, and what is right.
+            std::vector<std::size_t> order(best.begin(), best.end());
+            std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+                return report_.points[a].milliseconds < report_.points[b].milliseconds;
+            });
+            for (std::size_t k = 0; k < order.size(); ++k) {
+                const std::size_t i = k % 2 == 0 ? order[order.size() - 1 - k / 2] : order[k / 2];
                 const Settings at = report_.points[i].settings;
+                if (settings_.techniques && byOcclusion)
+                    for (const auto& filtered : study_.otherFilters(at)) try_(filtered, "refined", "");
                 for (const auto& knob : allowed(study_.knobs(at, frame()))) {
                     if (knob.current > 0) tryValue(at, knob, knob.current - 1);
                     if (knob.current + 1 < knob.values.size()) tryValue(at, knob, knob.current + 1);
@@ -159,8 +183,9 @@ private:
     SweepHooks& hooks_;
     SweepReport& report_;
     Measurer measurer_;
-    std::set<Settings> tried_;
+    std::set<std::string> tried_;
     double spent_ = 0;
+    bool isTruthTold_ = false;
     std::size_t untried_ = 0;
 };
 
@@ -202,8 +227,7 @@ FrontFit fitFront(const std::vector<StudyPoint>& points, std::span<const std::si
     double squares = 0;
     for (const auto i : front)
         if (const double error = errorOf(points[i], byOcclusion); error > 0)
-            squares += std::pow(
-                std::log10(error) - intercept - fit.exponent * std::log10(points[i].milliseconds), 2);
+            squares += std::pow(std::log10(error) - intercept - fit.exponent * std::log10(points[i].milliseconds), 2);
     fit.spread = std::sqrt(squares / std::max(1.0, n - 2));
     return fit;
 }

@@ -1,6 +1,6 @@
 // Accuracy against time for one config: every knob that its plan contains is turned, and each setting is timed and
-// compared with the truth. Settings come in the order in which they tell most: the config as it is, its knobs one by
-// one, other techniques, then the neighbours of what was best so far.
+// compared with the truth. Settings come in the order in which they tell most: the config as it is, other techniques,
+// its knobs one by one, then the neighbours of what was best so far.
 //
 // A study file is a render config, or includes one, and may narrow the study:
 //
@@ -60,10 +60,10 @@ struct PointPictures {
 
 struct StudyPoint {
     Settings settings;
-    std::string kind;   ///< "config", "knob", "technique" or "refined"
-    std::string knob;   ///< the key, of a "knob"
-    std::string group;  ///< technique and filters of ambient occlusion, or "config"
-    std::string lines;  ///< StudyConfig::lines
+    std::string kind;                            ///< "config", "knob", "technique" or "refined"
+    std::string knob;                            ///< the key, of a "knob"
+    std::string group;                           ///< technique and filters of ambient occlusion, or "config"
+    std::string lines;                           ///< StudyConfig::lines
     double milliseconds = 0, low = 0, high = 0;  ///< of drawing a frame: median and quartiles
     double first = 0;                            ///< milliseconds of the first frame, with all that is made once
     int runs = 0;
@@ -103,6 +103,8 @@ struct SweepHooks {
     std::vector<StudyPoint> known;  ///< from an earlier run of the same identity
     /// After each new point; the pictures are empty where there are none.
     std::function<void(const SweepReport&, const StudyPoint&, const PointPictures&)> onPoint;
+    /// The true picture (display values) and ambient occlusion (empty without), once they are known.
+    std::function<void(const Image&, const Image&)> onTruth;
 };
 
 /// The [study] of a document, which is taken out of it. Throws Errors.
@@ -111,7 +113,7 @@ SweepSettings takeSweepSettings(Node& document);
 std::string sweepIdentity(Session& session, const RenderConfig& config, const SweepSettings& settings);
 
 /// Throws what drawing throws.
-SweepReport runSweep(
-    Session& session, Node document, const std::filesystem::path& path, const SweepSettings& settings, SweepHooks hooks);
+SweepReport runSweep(Session& session, Node document, const std::filesystem::path& path, const SweepSettings& settings,
+    SweepHooks hooks);
 
 }  // namespace limn

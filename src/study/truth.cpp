@@ -83,8 +83,7 @@ double similarity(std::span<const float> a, std::span<const float> b, glm::ivec2
 
 std::vector<float> shellVisibility(
     const RenderedFrame& seen, const SceneInfo& scene, const Length& radius, int rays, glm::ivec2 wanted) {
-    const auto shell =
-        buildShell(seen.view, scene, seen.layers[0].image.pixels, seen.layers[1].image.pixels);
+    const auto shell = buildShell(seen.view, scene, seen.layers[0].image.pixels, seen.layers[1].image.pixels);
     const glm::ivec2 size = seen.view.region.size;
     const auto pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     std::vector<float> depth(pixels), normals(2 * pixels), visibility(pixels, 1.0f);
@@ -121,8 +120,8 @@ std::vector<PixelClass> classifyPixels(const RenderedFrame& seen) {
     };
     const auto place = [&](int x, int y) {
         const double z = static_cast<double>(*depth.at(x, y)) * seen.view.unit;
-        const glm::dvec2 ray = (glm::dvec2(seen.view.region.origin + glm::ivec2(x, size.y - 1 - y)) + 0.5)
-                * seen.view.rayScale
+        const glm::dvec2 ray =
+            (glm::dvec2(seen.view.region.origin + glm::ivec2(x, size.y - 1 - y)) + 0.5) * seen.view.rayScale
             + seen.view.rayOffset;
         return glm::dvec3(seen.view.orthographic ? ray : ray * z, -z);
     };
@@ -138,8 +137,8 @@ std::vector<PixelClass> classifyPixels(const RenderedFrame& seen) {
     std::vector<std::uint8_t> jump(depth.pixels.size());
     tbb::parallel_for(0, size.y, [&](int y) {
         for (int x = 0; x < size.x; ++x)
-            jump[index(x, y)] = jumps(x, y, x + 1, y) || jumps(x, y, x - 1, y) || jumps(x, y, x, y + 1)
-                || jumps(x, y, x, y - 1);
+            jump[index(x, y)] =
+                jumps(x, y, x + 1, y) || jumps(x, y, x - 1, y) || jumps(x, y, x, y + 1) || jumps(x, y, x, y - 1);
     });
     const int border = std::max(size.x, size.y) / 20;
     std::vector<PixelClass> classes(depth.pixels.size(), PixelClass::background);
@@ -152,8 +151,8 @@ std::vector<PixelClass> classifyPixels(const RenderedFrame& seen) {
                     nearJump = nearJump || jump[index(u, v)];
             const bool nearBorder = x < border || y < border || x >= size.x - border || y >= size.y - border;
             classes[index(x, y)] = nearJump ? PixelClass::silhouette
-                : nearBorder               ? PixelClass::border
-                                           : PixelClass::inside;
+                : nearBorder                ? PixelClass::border
+                                            : PixelClass::inside;
         }
     });
     return classes;

@@ -100,6 +100,32 @@ TEST(Noise, leavesNoPatternOnAFlatWall) {
         }
 }
 
+double rmsBetween(const Picture& a, const Picture& b) {
+    const auto &x = a.aov("ambient_occlusion").pixels, &y = b.aov("ambient_occlusion").pixels;
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        sum += std::pow(static_cast<double>(x[i]) - static_cast<double>(y[i]), 2);
+    return std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+// Rays of a pixel's samples complete each other: sixteen samples of sixteen rays are about as good as 256 rays at once.
+// (When each sample continued one recurrence, its steps met with a ratio near 1/4, and they were 3 times as bad.)
+TEST(Noise, ofRaysIsSpreadOverSamples) {
+    const LoadedScene scene = wedge(kFloorBesideAWall);
+    const auto traced = [&](int samples, int rays) {
+        return draw(makeConfig(fmt::format("shading = 'flat'\n[image]\nsize = [64, 48]\nsamples = {0}\nao_samples = "
+                                           "{0}\n[ao]\ntechnique = 'ray_traced'\nradius = 0.5\nrays = {1}\n[output]\n"
+                                           "aovs = ['ambient_occlusion']\n",
+                        samples, rays)),
+            scene);
+    };
+    const double together = rmsBetween(traced(1, 256), traced(1, 4096)),
+                 apart = rmsBetween(traced(16, 16), traced(16, 256));
+    RecordProperty("apart_over_together", fmt::format("{:.2f}", apart / together));
+    EXPECT_GT(together, 0);
+    EXPECT_LT(apart, 1.5 * together);
+}
+
 /// How far the edge of a band wanders from its own mean over 21 columns: standard deviation in pixels. The lower part
 /// of the picture holds one edge, between the darkest value in it and the lightest.
 double raggedness(const Image& image) {

@@ -44,6 +44,9 @@ const std::map<std::string, std::pair<int, std::string>> kCatches{
     {"src/settings/document.cpp", {3, "adds a place; turns the library's exceptions into errors; not TOML: text"}},
     {"src/formats/mtl.cpp", {1, "a missing library is a warning"}},
     {"src/render/pipeline.cpp", {1, "adds the config's name"}},
+    {"src/study/knobs.cpp", {2, "a value that a config refuses is none of a knob's"}},
+    {"src/study/sweep.cpp", {1, "a setting that cannot be drawn is named, and the study goes on"}},
+    {"src/study/results.cpp", {1, "figures that cannot be read are begun anew"}},
     {"src/cli/doctor.cpp", {1, "what does not work is what is asked for"}},
 };
 
