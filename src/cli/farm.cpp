@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "study/quality.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,11 @@ namespace {
 
 ExitCode runSlurm(const FarmOptions& options) {
     // What cannot be drawn is said here, not by forty machines.
-    static_cast<void>(readRenderConfig(options.config));
+    const RenderConfig config = readRenderConfig(options.config);
+    if (config.quality.isAsked()) {  // chosen once, for all machines
+        Session session;
+        withQuality(session, config, {}, config.output.path);
+    }
     const FarmScripts scripts = writeSlurm(options);
     for (const auto& file : {scripts.tasks, scripts.last}) log::info("Saved: '{}'", file.string());
     if (!options.submit) {

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "job/run.h"
+#include "study/quality.h"
 
 #include <sched.h>
 #include <tbb/global_control.h>
@@ -33,6 +34,7 @@ ExitCode run(RunOptions options, int asked) {
     if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     if (asked > 0 || std::getenv("SLURM_CPUS_ON_NODE") || std::getenv("CUE_THREADS"))
         options.session.device.threads = threads;
+    options.keepQuality = withQuality;
     return runJobs(options);
 }
 

@@ -4,6 +4,7 @@
 #include "job/progress.h"
 #include "job/session.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct RunOptions {
     double frameTimeout = 0;  ///< seconds after which a frame counts as failed; 0: never
     ProgressForm progress = ProgressForm::plain;
     SessionOptions session;
+    /// Chooses the settings of a config that asks for a quality, for its output.
+    std::function<RenderConfig(Session&, const RenderConfig&, const ConfigOverrides&, const std::filesystem::path&)>
+        keepQuality;
 };
 
 /// A config and all that is known about it before drawing.

@@ -50,7 +50,7 @@ public:
           progress_(options.progress, std::chrono::duration<double>(options.frameTimeout)) {}
 
     ExitCode draw() {
-        const std::vector<Job> jobs = readJobs(options_);
+        std::vector<Job> jobs = readJobs(options_);
         // What cannot be written is said before anything is drawn for it.
         if (!options_.stats.empty()) requireWritable(options_.stats);
         Errors failures;
@@ -70,14 +70,14 @@ public:
     }
 
 private:
-    void drawAll(const std::vector<Job>& jobs) {
+    void drawAll(std::vector<Job>& jobs) {
         // The first scene loads while the device starts, and its meshes are made as far as time allows.
         std::optional<int> first;
         if (!options_.frames.empty()) first = parseFrames(options_.frames).front();
         if (!options_.resume && options_.chunk.empty()) session_.makeAhead(jobs.front().config, first);
-        const auto& device = session_.renderer().device();
-        deviceName_ = device.report().renderer;
-        log::debug("drawing on {} ({})", device.report().renderer, device.report().version);
+        const gl::DeviceReport device = session_.renderer().device().report();
+        deviceName_ = device.renderer;
+        log::debug("drawing on {} ({})", device.renderer, device.version);
         deviceMilliseconds_ = since(start_);
         for (std::size_t j = 0; j < jobs.size(); ++j) {
             // The next scene loads while this one is drawn.
@@ -89,6 +89,9 @@ private:
                 const LoadedScene& loaded = session_.load(jobs[j].config);
                 progress_.end();
                 ahead();
+                if (jobs[j].config.quality.isAsked() && options_.keepQuality)
+                    jobs[j].config = options_.keepQuality(session_, jobs[j].config, options_.overrides, jobs[j].output);
+                statistics_.promise(jobs[j].config.promise);
                 loadMilliseconds_ = loadMilliseconds_ > 0 ? loadMilliseconds_ : since(start_);
                 const std::vector<int> frames = framesOf(jobs[j], options_, loaded);
                 progress_.beginJob(j, jobs.size(), frames.size());
@@ -102,9 +105,10 @@ private:
             if (isDone) session_.forget(jobs[j].config);
         }
         behind_.wait();
-        if (!device.debugMessages().empty())
-            throw Error(ExitCode::internal, {},
-                fmt::format("the GL driver objects: {}", device.debugMessages().front()), "please report this");
+        const auto& messages = session_.renderer().device().debugMessages();
+        if (!messages.empty())
+            throw Error(ExitCode::internal, {}, fmt::format("the GL driver objects: {}", messages.front()),
+                "please report this");
     }
 
     /// Runs `work`; with --keep-going it reports and counts what that throws. False if it threw.

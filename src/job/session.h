@@ -46,6 +46,11 @@ public:
     /// Plans without a device, unless one has been started.
     PlanReport plan(const RenderConfig& config, int frame);
 
+    /// Ends the device: the next use starts it anew, as a new process would. References into the old one end.
+    void restart() {
+        meshes_ = {};
+        renderer_ = nullptr;
+    }
     /// Starts the device if necessary.
     Renderer& renderer();
 

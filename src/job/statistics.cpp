@@ -22,6 +22,11 @@ std::uint64_t peakMemory() {
 
 }  // namespace
 
+void Statistics::promise(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    if (!text.empty()) promises_ += (promises_.empty() ? "" : ", ") + jsonText(text);
+}
+
 void Statistics::add(const Frame& frame) {
     std::string times;
     for (const auto& part : frame.parts)
@@ -50,12 +55,13 @@ std::string Statistics::json(const std::string& device, ExitCode exitCode, doubl
         ? ""
         : fmt::format(" \"flicker\": {{\"mean\": {:.4f}, \"largest\": {:.4f}}},\n",
             flickerSum_ / static_cast<double>(flickerCount_), flickerLargest_);
+    const std::string quality = promises_.empty() ? "" : fmt::format(" \"quality\": [{}],\n", promises_);
     return fmt::format(
         "{{\"version\": {}, \"limn\": {}, \"device\": {}, \"exit_code\": {}, \"seconds\": {:.2f}, \"peak_memory\": "
-        "{},\n"
+        "{},\n{}"
         " \"drawn\": {}, \"same\": {}, \"kept\": {}, \"failed\": {},\n{} \"frames\": [\n{}\n]}}\n",
         kFormatVersion, jsonText(fmt::format("limn {}", kVersion)), jsonText(device), static_cast<int>(exitCode),
-        seconds, peakMemory(), counts_[0], counts_[1], counts_[2], counts_[3], flicker, frames_);
+        seconds, peakMemory(), quality, counts_[0], counts_[1], counts_[2], counts_[3], flicker, frames_);
 }
 
 }  // namespace limn

@@ -28,16 +28,18 @@ public:
         std::optional<FlickerFigure> flicker;
     };
 
+    /// What a config's pictures are to keep; empty: nothing.
+    void promise(const std::string& text);
     /// May be called by several threads.
     void add(const Frame& frame);
-    /// JSON: {"version", "limn", "device", "exit_code", "seconds", "peak_memory", "drawn", "same", "kept", "failed",
-    /// "frames": [{"file", "frame", "outcome", "parts": {NAME: ms}, "total": ms, "problem",
+    /// JSON: {"version", "limn", "device", "exit_code", "seconds", "peak_memory", "quality": [TEXT], "drawn", "same",
+    /// "kept", "failed", "frames": [{"file", "frame", "outcome", "parts": {NAME: ms}, "total": ms, "problem",
     /// "flicker": {"mean", "p99", "compared"}}]}; of all frames "flicker": {"mean", "largest"}.
     std::string json(const std::string& device, ExitCode exitCode, double seconds) const;
 
 private:
     mutable std::mutex mutex_;
-    std::string frames_;
+    std::string frames_, promises_;
     std::size_t counts_[4] = {};
     std::size_t flickerCount_ = 0;
     double flickerSum_ = 0, flickerLargest_ = 0;

@@ -53,6 +53,14 @@ constexpr Field kImage[] = {
         "dpi", {.unit = "pixels per inch", .min = 1, .max = 100000}, "Gives millimetres a meaning."),
 };
 
+constexpr Field kQuality[] = {
+    field<&QualitySettings::error>("error", {.min = 1e-5, .max = 1, .keyable = false},
+        "Chooses ambient occlusion so that its root mean square error beside rays is at most this, as cheap as can "
+        "be."),
+    field<&QualitySettings::seconds>("seconds", {.unit = "seconds", .min = 1e-3, .max = 1e6, .keyable = false},
+        "Chooses samples and ambient occlusion so that drawing a frame on this machine takes at most about as long."),
+};
+
 enum class Orientation { portrait, landscape };
 
 struct Sheet {
@@ -204,7 +212,7 @@ public:
         if (!document_.find("scene") && (document_.find("mesh") || document_.find("instance")))
             throw Error(ExitCode::usage, {config_.file.string()}, "is a scene, not a config",
                 "write a config that begins with scene = \"FILE\", or have limn init write both for a mesh");
-        std::vector<std::string_view> sections{"version", "image", "sheet", "output"};
+        std::vector<std::string_view> sections{"version", "image", "sheet", "quality", "output"};
         for (const auto& slot : allSlots())
             if (slot.parent().empty()) sections.push_back(slot.key);
         Header header;
@@ -224,6 +232,7 @@ public:
                 fmt::format("write for example \"1-24\", with at most {} frames", kMostFrames));
         readImage();
         readSheet();
+        readQuality();
         config_.choices = readChoices(document_, errors_);
         readOutput();
         errors_.throwIfAny();
@@ -257,6 +266,14 @@ private:
             else if (auto problem = fieldType<Color>().read(&config_.image.background, *background, kImage[0]))
                 fail(*background, "'background' in [image] " + *problem, "or \"transparent\"");
         }
+    }
+
+    void readQuality() {
+        const Node* node = document_.find("quality");
+        if (!node) return;
+        readFields(*node, kQuality, &config_.quality, nullptr, "[quality]", errors_);
+        if (node->isTable() && (node->find("error") != nullptr) == (node->find("seconds") != nullptr))
+            fail(*node, "[quality] needs one of 'error' and 'seconds'", "write for example quality = { error = 0.02 }");
     }
 
     void readSheet() {
@@ -379,6 +396,8 @@ std::vector<SettingsTable> configTables() {
             "the picture; also seed (a number, \"frame\" or \"surface\": noise moves along) and background (a colour "
             "or \"transparent\")",
             kImage, defaultsOf<ImageSettings>()},
+        {"[quality]", "a promise that limn keeps, instead of settings chosen by hand", kQuality,
+            defaultsOf<QualitySettings>()},
         {"[sheet]", "paper to draw on, instead of image.size", kSheet, defaultsOf<Sheet>()},
         {"[output]",
             "what is written; also path (#### is the frame number), aovs (a list) and video (a film of all frames: "

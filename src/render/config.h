@@ -29,6 +29,13 @@ struct ImageSettings {
     int tile = 0;
 };
 
+/// What the picture is to keep; 0: no such promise. One of the two.
+struct QualitySettings {
+    double error = 0;    ///< of ambient occlusion, root mean square
+    double seconds = 0;  ///< of drawing a frame
+    bool isAsked() const { return error > 0 || seconds > 0; }
+};
+
 struct OutputSettings {
     std::filesystem::path path;   ///< #### is the frame number
     std::filesystem::path video;  ///< a film of all frames; empty: none
@@ -42,6 +49,8 @@ struct RenderConfig {
     std::string camera;           ///< empty: the scene's first
     MeshFileOptions meshFile;     ///< where the scene is a mesh file
     ImageSettings image;
+    QualitySettings quality;
+    std::string promise;  ///< what its settings were chosen for; empty: nothing
     Choices choices;
     std::vector<std::string> sections;  ///< names of the scene's sections to cut by
     double scale = 0;                   ///< of a drawing on a sheet, for example 1/50; 0: from the camera

@@ -67,6 +67,7 @@ Metadata metadataOf(const RenderConfig& config, const SceneAt& scene, int frame,
         {"limn.accuracy", std::string(config.in("geometry").front().technique->name)},
         {"limn.device", fmt::format("{} | {}", device.renderer, device.version)}, {"limn.cpu", cpuFeatures()},
         {"limn.plan", passNames(pipeline)}};
+    if (!config.promise.empty()) all.emplace_back("limn.quality", config.promise);
     if (crop.size.x > 0)
         all.emplace_back(
             "limn.crop", fmt::format("{},{},{},{}", crop.origin.x, crop.origin.y, crop.size.x, crop.size.y));

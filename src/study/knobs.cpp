@@ -136,7 +136,10 @@ std::string settingsText(const Settings& settings) {
 }
 
 StudyConfig::StudyConfig(Node document, std::filesystem::path path, const LoadedScene& scene)
-    : document_(std::move(document)), path_(std::move(path)), scene_(scene) {}
+    : document_(std::move(document)), path_(std::move(path)), scene_(scene) {
+    // Its settings are what is asked for here.
+    std::erase_if(std::get<Node::Table>(document_.value), [](const auto& entry) { return entry.first == "quality"; });
+}
 
 Variant StudyConfig::at(const Settings& settings) const {
     Variant variant{document_, {}, {}};
@@ -189,6 +192,19 @@ std::vector<Settings> StudyConfig::otherFilters(const Settings& settings) const 
     return all;
 }
 
+static std::vector<Knob> sceneKnobs(const Settings& settings) {
+    std::vector<Knob> knobs;
+    const auto add = [&](std::string_view key, const std::vector<std::string>& values, const std::string& neutral) {
+        const auto set = settings.find(std::string(key));
+        const auto at = std::find(values.begin(), values.end(), set == settings.end() ? neutral : set->second);
+        if (at != values.end())
+            knobs.push_back({std::string(key), values, static_cast<std::size_t>(at - values.begin())});
+    };
+    add(kLevel, {"-2", "-1", "0", "1"}, "0");
+    add(kShadow, {"0.25", "0.5", "1", "2"}, "1");
+    return knobs;
+}
+
 std::vector<Knob> StudyConfig::knobs(const Settings& settings, int frame) const {
     const Variant variant = at(settings);
     std::vector<Knob> found;
@@ -214,19 +230,7 @@ std::vector<Knob> StudyConfig::knobs(const Settings& settings, int frame) const 
             found.push_back(std::move(accuracy));
         }
     }
-    const auto at0 = [&](std::string_view key, const char* neutral) {
-        const auto it = settings.find(std::string(key));
-        return it == settings.end() ? std::string(neutral) : it->second;
-    };
-    const auto addSceneKnob = [&](std::string_view key, std::vector<std::string> values, const char* neutral) {
-        const std::string current = at0(key, neutral);
-        const auto place = std::find(values.begin(), values.end(), current);
-        if (place != values.end())
-            found.push_back({std::string(key), values, static_cast<std::size_t>(place - values.begin())});
-    };
-    addSceneKnob(kLevel, {"-2", "-1", "0", "1"}, "0");
-    addSceneKnob(kShadow, {"0.25", "0.5", "1", "2"}, "1");
-
+    for (Knob& knob : sceneKnobs(settings)) found.push_back(std::move(knob));
     const ContentKey now = planKey(variant, frame);
     const auto drawn = sceneAt(*variant.scene, frameRequest(variant.config, frame)).instances;
     const bool hasCages = std::any_of(drawn.begin(), drawn.end(), [](const auto& i) { return i.isSubdivided; });

@@ -64,8 +64,9 @@ double wedgeTruth(double degrees, double x) {
 }
 
 // The floor and the wall are all the depth buffer has to show, so that horizons, bits and rays all tend to the truth:
-// within 0.012, which steps of a pixel and the open end of the wall account for (measured: at most 0.008). One column of
-// pixels counts, which has four pixels' rays: 1024 of them hit a half-space within 0.007, but 256 within 0.017 only.
+// within 0.012, which steps of a pixel and the open end of the wall account for (measured: at most 0.008).
+// One column of pixels counts, which has four pixels' rays: 1024 of them find a half-space within 0.007, but 256
+// within 0.017 only.
 TEST(Occlusion, cosineWeightedTechniquesFindTheTruth) {
     for (const char* technique :
         {"technique = 'gtao'\nslices = 16\nsteps = 128", "technique = 'hbao'\ndirections = 32\nsteps = 128",

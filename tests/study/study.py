@@ -13,6 +13,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -236,6 +237,64 @@ def check_refusals(limn, folder):
         assert code is None or done.returncode == code, (lines, done.returncode)
 
 
+def metadata(path):
+    """Texts of a PNG."""
+    data, at, texts = open(path, "rb").read(), 8, {}
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
+        at += 12 + length
+        if kind == b"tEXt":
+            key, _, value = body.partition(b"\0")
+            texts[key.decode()] = value.decode("latin-1")
+        elif kind == b"iTXt":
+            key, _, rest = body.partition(b"\0")
+            texts[key.decode()] = rest.split(b"\0")[-1].decode()
+    return texts
+
+
+def check_promises(limn, folder):
+    """What a promise chooses is kept beside the picture, and does what its lines say."""
+    config = folder + "/promise.toml"
+    plain = CONFIG.split("[study]")[0]
+    write(config, plain.replace("[image]", "quality = { error = 0.05 }\n[image]", 1))
+    picture, kept = folder + "/kept.png", folder + "/kept.quality.toml"
+    first = run(limn, "render", config, "--output", picture, "--stats", folder + "/stats.json")
+    assert "looks for settings" in first.stderr and "error 0.05 promised" in first.stderr, first.stderr
+    said = metadata(picture)["limn.quality"]
+    assert said.startswith("error 0.05 promised, 0.0"), said
+    assert json.load(open(folder + "/stats.json"))["quality"] == [said]
+    bytes_of = lambda path: open(path, "rb").read()
+    drawn = bytes_of(picture)
+    again = run(limn, "render", config, "--output", picture, "--threads", "1", "--set", "image.tile=0")
+    # Another --set is another config; the same one again is not chosen again.
+    again = run(limn, "render", config, "--output", picture, "--threads", "1")
+    assert "looks for settings" in again.stderr, "another config was drawn in between"
+    again = run(limn, "render", config, "--output", picture, "--threads", "1")
+    assert "looks for settings" not in again.stderr and bytes_of(picture) == drawn, again.stderr
+    resumed = run(limn, "render", config, "--output", picture, "--resume")
+    assert "Kept:" in resumed.stderr, resumed.stderr
+    os.remove(kept)
+    run(limn, "render", config, "--output", picture, "--threads", "1")
+    assert bytes_of(picture) == drawn, "chosen anew, the same is chosen"
+
+    lines = re.findall(r"(?m)^#     (.*)$", open(kept).read())
+    assert lines and lines[0].startswith("ao = "), lines
+    pasted = re.sub(r"(?ms)^\[ao\]\n.*?(?=^\[)", "", plain)
+    write(folder + "/lines.toml", "\n".join(lines) + "\n" + pasted + "[study]\nrays = 1024\ntechniques = false\n")
+    study(limn, folder + "/lines.toml", "--output", folder + "/lines", "--budget", "1")
+    got = json.load(open(folder + "/lines/study.json"))["points"][0]["occlusion"]
+    # The study's truth is smoothed over pixels: what is inside of surfaces does not depend on that.
+    assert got["inside"] <= 0.05, got
+
+    for quality, part in (("{ error = 0.00002 }", "cannot be promised"), ("{ seconds = 0.001 }", "cannot be kept"),
+                          ("{ error = 0.1, seconds = 1 }", "one of"), ("{ }", "one of"), ("{ error = 2 }", "1e-05 to 1")):
+        write(config, plain.replace("[image]", "quality = %s\n[image]" % quality, 1))
+        done = run(limn, "render", config, "--output", folder + "/never.png", fails=True)
+        assert done.returncode == 64 and part in done.stderr, (quality, done.returncode, done.stderr)
+        assert not os.path.exists(folder + "/never.png")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("limn")
@@ -258,6 +317,7 @@ def main():
         check_lines(limn, folder, report)
         check_going_on(limn, config, output)
         check_refusals(limn, folder)
+        check_promises(limn, folder)
         print("%d settings studied; %s" % (len(report["points"]), "; ".join(said)))
 
 
