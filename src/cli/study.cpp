@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace limn::cli {
 namespace {
@@ -84,13 +85,14 @@ void printFront(const SweepReport& report, bool byOcclusion) {
     if (fit.points > 0)
         fmt::print("along it the error is about {:.3g} · seconds^{:.2f}, within a factor of {:.2f}\n",
             fit.factor * std::pow(1000.0, fit.exponent), fit.exponent, std::pow(10.0, fit.spread));
-    for (const double seconds : {0.1, 1.0, 10.0}) {
+    const StudyPoint* told = nullptr;
+    for (const double seconds : {0.1, 0.3, 1.0, 3.0, 10.0}) {
         const StudyPoint* best = nullptr;
         for (const auto i : front)
             if (report.points[i].milliseconds <= 1000 * seconds) best = &report.points[i];
-        if (best)
-            fmt::print("best within {} s: {}, error {:.4f}\n", seconds, presentable(settingsText(best->settings)),
-                errorOf(*best, byOcclusion));
+        if (!best || std::exchange(told, best) == best) continue;
+        fmt::print("best within {} s: {}, error {:.4f}\n", seconds, presentable(settingsText(best->settings)),
+            errorOf(*best, byOcclusion));
     }
 }
 

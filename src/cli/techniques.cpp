@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "formats/scene_file.h"
 #include "settings/document.h"
+#include "study/sweep.h"
 
 #include <fmt/format.h>
 
@@ -181,6 +182,7 @@ Topic findTopic(const std::string& name) {
         }
     };
     choose(configTables(), "config", topic.ofConfig);
+    choose(sweepTables(), "config", topic.ofConfig);
     choose(sceneTables(), "scene", topic.ofScene);
     topic.frames = name.empty() || name == "frames" || name == "animation";
     return topic;
@@ -214,7 +216,8 @@ ExitCode run(const std::string& name, const std::string& format) {
 
 std::string parameterReference() {
     std::string out = "# Parameter reference\n\nMade from the program's own tables.\n\n## Render config\n\n";
-    for (const auto& table : configTables()) out += markdownOf(table) + "\n";
+    for (const auto& tables : {configTables(), sweepTables()})
+        for (const auto& table : tables) out += markdownOf(table) + "\n";
     out += "## Techniques\n\n";
     for (const auto& slot : allSlots()) {
         out += fmt::format("{} Without a word about it: {}.\n\n", slot.doc,

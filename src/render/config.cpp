@@ -186,6 +186,7 @@ Node shownBy(Node document) {
     };
     if (!document.isTable()) return document;
     drop(document, "frames");
+    drop(document, "study");
     if (Node* output = document.find("output"); output && output->isTable()) {
         drop(*output, "path");
         drop(*output, "video");
@@ -212,7 +213,7 @@ public:
         if (!document_.find("scene") && (document_.find("mesh") || document_.find("instance")))
             throw Error(ExitCode::usage, {config_.file.string()}, "is a scene, not a config",
                 "write a config that begins with scene = \"FILE\", or have limn init write both for a mesh");
-        std::vector<std::string_view> sections{"version", "image", "sheet", "quality", "output"};
+        std::vector<std::string_view> sections{"version", "image", "sheet", "quality", "study", "output"};
         for (const auto& slot : allSlots())
             if (slot.parent().empty()) sections.push_back(slot.key);
         Header header;

@@ -10,18 +10,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 
 namespace limn {
 namespace {
 
-// A model of cost, the same everywhere: nanoseconds per pixel and sample on two cores of 2020, as measured in the
-// project's own scenes (tests/bench/ao_table.sh). Only the order matters.
-constexpr double kPerRay = 40, kPerFilterPass = 36;
+// A model of cost, the same everywhere: nanoseconds per pixel and sample on two cores, as tests/bench/quality.py found
+// them. Only the order matters.
+constexpr double kPerRay = 15, kPerFilterPass = 90;
 constexpr int kRays[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
 constexpr int kMostPasses = 3;
+constexpr double kMostRays = 512;
 constexpr int kFewestTrueRays = 512, kMostTrueRays = 8192;  // of what counts as the truth, over all samples
 
 /// Of a rectangle of pixels from the upper left.
@@ -217,12 +217,12 @@ QualityChoice chooseBySeconds(
         settings["image.samples"] = std::to_string(step.samples);
         return settings;
     };
-    using Clock = std::chrono::steady_clock;
     const auto timed = [&](Renderer& renderer, const Step& step, int frame) {
         const Variant variant = study.at(settingsOf(step));
-        const auto begin = Clock::now();
-        renderer.render(variant.config, *variant.scene, frame, {});
-        return std::chrono::duration<double>(Clock::now() - begin).count();
+        double seconds = 0;
+        for (const auto& part : renderer.render(variant.config, *variant.scene, frame, {}).times)
+            if (part.name == "draw") seconds += part.milliseconds / 1000;
+        return seconds;
     };
     double beginning = 0;
     const auto secondsOf = [&](const Step& step) {
@@ -253,11 +253,15 @@ QualityChoice chooseBySeconds(
     }
     Step step = kSteps[at];
     if (seconds > target && at > 0) {
-        // Between two steps: as much of the number that changes as there is time for.
-        const Step& cheap = kSteps[at - 1];
-        const double share = 0.95 * std::clamp((target - before) / std::max(seconds - before, 1e-9), 0.0, 1.0);
-        const auto between = [&](int a, int b) { return a + static_cast<int>(share * (b - a)); };
-        step = {between(cheap.samples, step.samples), between(cheap.rays, step.rays)};
+        // What is left of the time goes into rays, or where there are none into samples.
+        const Step cheap = kSteps[at - 1];
+        const Step dear = hasOcclusion ? Step{cheap.samples, 4 * cheap.rays} : step;
+        const double slope = std::max(secondsOf(dear) - before, 1e-9);
+        const double share = std::max(0.0, (0.97 * target - before) / slope);
+        const auto between = [&](int a, int b) {
+            return a + static_cast<int>(std::min(share, kMostRays / static_cast<double>(b)) * (b - a));
+        };
+        step = {between(cheap.samples, dear.samples), between(cheap.rays, dear.rays)};
         seconds = secondsOf(step);
         if (seconds > 1.1 * target) step = cheap, seconds = before;
     }

@@ -220,7 +220,10 @@ FrontFit fitFront(const std::vector<StudyPoint>& points, std::span<const std::si
         ++fit.points;
     }
     const double n = fit.points, spread = n * xx - x * x;
-    if (fit.points < 3 || !(spread > 0)) return {};
+    constexpr int kFewest = 4;
+    constexpr double kNarrowest = 3;  // of times: a law needs room to show itself
+    if (fit.points < kFewest || points[front.back()].milliseconds < kNarrowest * points[front.front()].milliseconds)
+        return {};
     fit.exponent = (n * xy - x * y) / spread;
     const double intercept = (y - fit.exponent * x) / n;
     fit.factor = std::pow(10.0, intercept);
@@ -230,6 +233,10 @@ FrontFit fitFront(const std::vector<StudyPoint>& points, std::span<const std::si
             squares += std::pow(std::log10(error) - intercept - fit.exponent * std::log10(points[i].milliseconds), 2);
     fit.spread = std::sqrt(squares / std::max(1.0, n - 2));
     return fit;
+}
+
+std::vector<SettingsTable> sweepTables() {
+    return {{"[study]", "what limn study looks at; pictures do not depend on it", kSweep, defaultsOf<SweepSettings>()}};
 }
 
 SweepSettings takeSweepSettings(Node& document) {

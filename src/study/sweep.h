@@ -76,7 +76,8 @@ struct StudyPoint {
     std::string name;  ///< of its pictures' files
 };
 
-/// error ≈ factor · milliseconds^exponent, by least squares over a front, in logarithms.
+/// error ≈ factor · milliseconds^exponent, by least squares over a front, in logarithms. No points: the front is too
+/// small for a law, or its times too alike.
 struct FrontFit {
     double factor = 0, exponent = 0;
     double spread = 0;  ///< standard deviation of log10 error about it
@@ -107,6 +108,8 @@ struct SweepHooks {
     std::function<void(const Image&, const Image&)> onTruth;
 };
 
+/// [study], for the parameter reference.
+std::vector<SettingsTable> sweepTables();
 /// The [study] of a document, which is taken out of it. Throws Errors.
 SweepSettings takeSweepSettings(Node& document);
 /// What decides about a study's figures, but the machine's speed.
