@@ -13,10 +13,13 @@ namespace {
 
 ExitCode runSlurm(const FarmOptions& options) {
     // What cannot be drawn is said here, not by forty machines.
-    const RenderConfig config = readRenderConfig(options.config);
+    ConfigOverrides overrides;
+    for (std::size_t i = 0; i + 1 < options.arguments.size(); ++i)
+        if (options.arguments[i] == "--set") overrides.settings.push_back(options.arguments[++i]);
+    const RenderConfig config = readRenderConfig(options.config, overrides);
     if (config.quality.isAsked()) {  // chosen once, for all machines
         Session session;
-        withQuality(session, config, {}, config.output.path);
+        withQuality(session, config, overrides, config.output.path);
     }
     const FarmScripts scripts = writeSlurm(options);
     for (const auto& file : {scripts.tasks, scripts.last}) log::info("Saved: '{}'", file.string());

@@ -98,7 +98,7 @@ void printFront(const SweepReport& report, bool byOcclusion) {
 
 /// Every knob of a config.
 ExitCode runConfig(const StudyOptions& options, Node document) {
-    for (const auto& setting : options.settings) applySetting(document, setting);
+    layerSettings(document, options.settings);
     SweepSettings settings = takeSweepSettings(document);
     if (options.budget) settings.seconds = *options.budget;
     Session session(options.session);
@@ -106,7 +106,7 @@ ExitCode runConfig(const StudyOptions& options, Node document) {
     const std::filesystem::path folder = options.output;
     if (!options.output.empty()) {
         requireWritable(folder / "index.html");
-        hooks.known = readFigures(folder, sweepIdentity(session, parseRenderConfig(document, options.file), settings));
+        readFigures(folder, sweepIdentity(session, parseRenderConfig(document, options.file), settings), hooks);
         hooks.onPoint = [&](const SweepReport& report, const StudyPoint& point, const PointPictures& pictures) {
             writePictures(folder, point, pictures);
             writeFigures(folder, report);
@@ -129,7 +129,7 @@ ExitCode runConfig(const StudyOptions& options, Node document) {
 }
 
 ExitCode runStudyCommand(const StudyOptions& options) {
-    Node document = readDocument(options.file);
+    Node document = readConfigDocument(options.file);
     if (!document.find("place") && !document.find("method")) return runConfig(options, std::move(document));
     if (options.budget || !options.settings.empty())
         throw Error(ExitCode::usage, {options.file},

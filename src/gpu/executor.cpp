@@ -60,16 +60,19 @@ bool Executor::isKept(const Plan& plan, const Pass& pass, const GpuScene& scene)
     });
 }
 
+void Executor::forgetContent(const Plan& plan, const PlannedPass& planned, const Pass& pass) {
+    for (std::size_t w = 0; w < pass.writes.size(); ++w)
+        if (planned.writes[w])
+            seenByLights_.erase(
+                static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)]));
+}
+
 void Executor::noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene) {
-    for (std::size_t w = 0; w < pass.writes.size(); ++w) {
-        if (!planned.writes[w]) continue;
-        const auto written =
-            static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)]);
-        if (pass.isOfLights)
-            seenByLights_[written] = scene.shadowsKey();
-        else
-            seenByLights_.erase(written);
-    }
+    if (!pass.isOfLights) return;
+    for (std::size_t w = 0; w < pass.writes.size(); ++w)
+        if (planned.writes[w])
+            seenByLights_[static_cast<std::size_t>(
+                plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)])] = scene.shadowsKey();
 }
 
 const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) const {
@@ -95,38 +98,15 @@ void Executor::run(
     stamp();
     for (const auto& planned : plan.passes) {
         const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
-        if (!planned.runs || isKept(plan, pass, scene)) {
-            stamp();
-            continue;
-        }
-        noteContent(plan, planned, pass, scene);
-        const gl::DebugGroup group(pass.name);
-        if (pass.kind == Pass::Kind::host) {
-            runHost(graph, plan, planned, view, host, scene.marks());
-            stamp();
-            continue;
-        }
-        const gl::Program& linked = program(graph, planned, view, block);
-        linked.use();
-        viewBuffer.bindUniform(0);
-        std::optional<gl::Buffer> params;
-        if (!pass.params.bytes.empty()) params.emplace(pass.params.bytes, pass.name + " params").bindUniform(1);
-        scene.bind();
-        const bool asImages = pass.kind == Pass::Kind::compute && drawsScreen();
-        int unit = 0;
-        for (const auto& read : pass.reads) {
-            const auto& image = texture(plan, read.resource);
-            if (asImages && !info(image.format()).glslImage.empty())
-                image.bindImage(unit++, gl::Access::read);
+        if (planned.runs && !isKept(plan, pass, scene)) {
+            const gl::DebugGroup group(pass.name);
+            forgetContent(plan, planned, pass);
+            if (pass.kind == Pass::Kind::host)
+                runHost(graph, plan, planned, view, host, scene.marks());
             else
-                image.bindSampler(unit++);
+                runOnDevice(graph, plan, planned, view, block, viewBuffer, scene);
+            noteContent(plan, planned, pass, scene);
         }
-        if (pass.kind == Pass::Kind::raster)
-            runRaster(graph, plan, planned, view, scene, linked);
-        else if (drawsScreen())
-            runScreen(graph, plan, planned, view, linked);
-        else
-            runCompute(graph, plan, planned);
         stamp();
     }
     if (measure) {
@@ -135,6 +115,32 @@ void Executor::run(
             milliseconds_[i] += stamps[i + 1].milliseconds() - stamps[i].milliseconds();
     }
     device_.check("drawing");
+}
+
+void Executor::runOnDevice(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
+    const UniformBlock& block, const gl::Buffer& viewBuffer, GpuScene& scene) {
+    const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
+    const gl::Program& linked = program(graph, planned, view, block);
+    linked.use();
+    viewBuffer.bindUniform(0);
+    std::optional<gl::Buffer> params;
+    if (!pass.params.bytes.empty()) params.emplace(pass.params.bytes, pass.name + " params").bindUniform(1);
+    scene.bind();
+    const bool asImages = pass.kind == Pass::Kind::compute && drawsScreen();
+    int unit = 0;
+    for (const auto& read : pass.reads) {
+        const auto& image = texture(plan, read.resource);
+        if (asImages && !info(image.format()).glslImage.empty())
+            image.bindImage(unit++, gl::Access::read);
+        else
+            image.bindSampler(unit++);
+    }
+    if (pass.kind == Pass::Kind::raster)
+        runRaster(graph, plan, planned, view, scene, linked);
+    else if (drawsScreen())
+        runScreen(graph, plan, planned, view, linked);
+    else
+        runCompute(graph, plan, planned);
 }
 
 /// The part of an image that a pass must make: the picture and the pass's halo. Images may be coarser than the region

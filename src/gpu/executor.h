@@ -47,7 +47,10 @@ private:
     void allocate(const Plan& plan);
     /// Do the pass's images show already what lights see?
     bool isKept(const Plan& plan, const Pass& pass, const GpuScene& scene) const;
+    void forgetContent(const Plan& plan, const PlannedPass& planned, const Pass& pass);
     void noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene);
+    void runOnDevice(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
+        const UniformBlock& block, const gl::Buffer& viewBuffer, GpuScene& scene);
     void runCompute(const Graph& graph, const Plan& plan, const PlannedPass& planned);
     void runScreen(
         const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);

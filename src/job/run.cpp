@@ -88,10 +88,8 @@ private:
                 progress_.begin(fmt::format("reading {}", jobs[j].config.scene.string()));
                 const LoadedScene& loaded = session_.load(jobs[j].config);
                 progress_.end();
+                keepQuality(jobs[j]);
                 ahead();
-                if (jobs[j].config.quality.isAsked() && options_.keepQuality)
-                    jobs[j].config = options_.keepQuality(session_, jobs[j].config, options_.overrides, jobs[j].output);
-                statistics_.promise(jobs[j].config.promise);
                 loadMilliseconds_ = loadMilliseconds_ > 0 ? loadMilliseconds_ : since(start_);
                 const std::vector<int> frames = framesOf(jobs[j], options_, loaded);
                 progress_.beginJob(j, jobs.size(), frames.size());
@@ -109,6 +107,16 @@ private:
         if (!messages.empty())
             throw Error(ExitCode::internal, {}, fmt::format("the GL driver objects: {}", messages.front()),
                 "please report this");
+    }
+
+    /// Chooses settings where the config asks for a quality. Nothing else may run meanwhile: it takes times.
+    void keepQuality(Job& job) {
+        if (!job.config.quality.isAsked() || !options_.keepQuality) return;
+        requireWritable(job.output);
+        progress_.begin(fmt::format("choosing settings for {}", job.config.file.string()));
+        job.config = options_.keepQuality(session_, job.config, options_.overrides, job.output);
+        progress_.end();
+        statistics_.promise(job.config.promise);
     }
 
     /// Runs `work`; with --keep-going it reports and counts what that throws. False if it threw.

@@ -60,13 +60,12 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
 std::vector<glm::vec3> spreadDirections(int rays, int sample, std::uint32_t seed) {
     std::vector<glm::vec3> directions;
     directions.reserve(16 * static_cast<std::size_t>(rays));
-    const int rayBits = static_cast<int>(std::bit_width(static_cast<unsigned>(rays - 1)));
-    const auto s = static_cast<std::uint32_t>(sample);
-    const int known = rayBits + std::max(4, static_cast<int>(std::bit_width(s)));
+    const auto s = static_cast<std::uint32_t>(sample), count = static_cast<std::uint32_t>(rays);
+    const auto known = static_cast<int>(std::bit_width((std::bit_ceil(std::max(s + 1, 16u))) * count - 1));
     const std::uint32_t finer = known < 32 ? ~0u >> known : 0;
     for (std::uint32_t pixel = 0; pixel < 16; ++pixel)
-        for (std::uint32_t ray = 0; ray < static_cast<std::uint32_t>(rays); ++ray) {
-            const std::uint32_t number = (s ^ pixel) << rayBits | ray;
+        for (std::uint32_t ray = 0; ray < count; ++ray) {
+            const std::uint32_t number = (s ^ pixel) * count + ray;
             const std::uint32_t first = reversed(number) ^ (mixBits(2 * s + 1) & finer),
                                 second = sobol(number) ^ (mixBits(2 * s + 2) & finer);
             const double u = scrambled(first, mixBits(2 * seed + 1)) * 0x1p-32,
@@ -167,7 +166,11 @@ void traceAmbientOcclusion(const RayScene& scene, const View& view, const SeenSu
     const int rays = query.rays;
     // There must be enough groups to measure a spread, and enough rays in each group to be evenly spread.
     const int groups = rays >= 64 ? 16 : rays >= 16 ? 4 : 1;
-    const std::vector<glm::vec3> directions = spreadDirections(rays, view.sample, view.seed);
+    // Of the samples that ambient occlusion is found in: a pixel's rays are to cover all of its hemisphere.
+    const int samples = view.sampling.samples();
+    const bool isPartial = view.aoSamples > 0 && view.aoSamples < samples;
+    const int run = isPartial ? view.sample * view.aoSamples / samples : view.sample;
+    const std::vector<glm::vec3> directions = spreadDirections(rays, run, view.seed);
     const auto number = [](int value) { return static_cast<std::size_t>(value); };
     tbb::parallel_for(tbb::blocked_range<int>(part.origin.y, part.origin.y + part.size.y, 4),
         [&](const tbb::blocked_range<int>& rows) {

@@ -198,10 +198,7 @@ class ConfigReader {
 public:
     ConfigReader(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides)
         : document_(std::move(document)), overrides_(overrides) {
-        for (const auto& setting : overrides.settings) {
-            applySetting(document_, setting);
-            dropForeignKeys(document_, setting);
-        }
+        layerSettings(document_, overrides.settings);
         config_.file = path;
         KeyBuilder key;
         key.add(canonicalText(shownBy(document_))).add(overrides.camera).add(overrides.meshFile.subdivide.value_or(-1));
@@ -458,12 +455,23 @@ RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path,
     return ConfigReader(std::move(document), path, overrides).read();
 }
 
-RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides) {
-    if (!isMeshFile(path)) return parseRenderConfig(readDocument(path), path, overrides);
+void layerSettings(Node& document, std::span<const std::string> settings) {
+    for (const auto& setting : settings) {
+        applySetting(document, setting);
+        dropForeignKeys(document, setting);
+    }
+}
+
+Node readConfigDocument(const std::filesystem::path& path) {
+    if (!isMeshFile(path)) return readDocument(path);
     if (!fileExists(path)) throw Error(ExitCode::missingInput, {path.string()}, "does not exist", "check the path");
     Node document = parseDocument(quickstartStyle(), "the quickstart's style");
     std::get<Node::Table>(document.value).emplace_back("scene", Node{{path.string()}, path.filename().string(), {}});
-    return parseRenderConfig(std::move(document), path, overrides);
+    return document;
+}
+
+RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides) {
+    return parseRenderConfig(readConfigDocument(path), path, overrides);
 }
 
 }  // namespace limn

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,11 @@ struct ConfigOverrides {
     MeshFileOptions meshFile;  ///< where the scene is a mesh file
 };
 
+/// Layers settings (KEY=VALUE) onto a config's document, as --set does: settings of another technique than the one that
+/// they choose are left out, with a warning. Throws Error (usage).
+void layerSettings(Node& document, std::span<const std::string> settings);
+/// A config's document; of a mesh file the quickstart's style, with the file as its scene. Throws Error.
+Node readConfigDocument(const std::filesystem::path& path);
 /// Reads a config, or draws an OBJ file in the quickstart's style. Throws every problem at once (Errors).
 RenderConfig readRenderConfig(const std::filesystem::path& path, const ConfigOverrides& overrides = {});
 RenderConfig parseRenderConfig(Node document, const std::filesystem::path& path, const ConfigOverrides& overrides = {});

@@ -135,8 +135,9 @@ std::string settingsText(const Settings& settings) {
     return text.empty() ? "as it is" : text;
 }
 
-StudyConfig::StudyConfig(Node document, std::filesystem::path path, const LoadedScene& scene)
-    : document_(std::move(document)), path_(std::move(path)), scene_(scene) {
+StudyConfig::StudyConfig(
+    Node document, std::filesystem::path path, const LoadedScene& scene, const MeshFileOptions& meshFile)
+    : document_(std::move(document)), path_(std::move(path)), meshFile_(meshFile), scene_(scene) {
     // Its settings are what is asked for here.
     std::erase_if(std::get<Node::Table>(document_.value), [](const auto& entry) { return entry.first == "quality"; });
 }
@@ -145,7 +146,8 @@ Variant StudyConfig::at(const Settings& settings) const {
     Variant variant{document_, {}, {}};
     for (const auto& [key, value] : settings)
         if (!key.starts_with("scene.")) applySetting(variant.document, key + "=" + value);
-    variant.config = parseRenderConfig(variant.document, path_);
+    variant.config = parseRenderConfig(variant.document, path_, {{}, {}, meshFile_});
+    variant.config.output.aovs = {&aov::beauty};
     variant.scene = changedScene(scene_, settings);
     return variant;
 }
@@ -156,9 +158,22 @@ const Technique* StudyConfig::occlusion() const {
     return choices.empty() ? nullptr : choices.front().technique;
 }
 
+/// Does a technique, as it is set, find the visibility that rays find? Not with an exponent on it, a radius in the
+/// picture, or keyframes, which the truth does not have.
+static bool findsVisibility(const TechniqueChoice& choice) {
+    if (!findField(choice.technique->schema, "radius") || !choice.tracks.empty()) return false;
+    const auto standard = choice.technique->makeParams();
+    for (const char* name : {"strength", "power", "mapping", "radius_in", "offset_in"})
+        if (const Field* field = findField(choice.technique->schema, name); field
+            && field->type().text(field->constMember(choice.params.get()))
+                != field->type().text(field->constMember(standard.get())))
+            return false;
+    return true;
+}
+
 std::optional<Settings> StudyConfig::tracedOcclusion(int rays) const {
-    const Technique *technique = occlusion(), *traced = findTechnique("ao", "ray_traced");
-    if (!technique || !findField(technique->schema, "radius")) return std::nullopt;
+    const Technique* traced = findTechnique("ao", "ray_traced");
+    if (!occlusion() || !findsVisibility(at({}).config.in("ao").front())) return std::nullopt;
     return Settings{{"ao",
         fmt::format("{{ technique = \"ray_traced\", rays = {}{} }}", rays,
             sharedSettings(*traced, at({}).config.in("ao").front(), "rays"))}};
@@ -166,8 +181,7 @@ std::optional<Settings> StudyConfig::tracedOcclusion(int rays) const {
 
 std::vector<Settings> StudyConfig::alternatives() const {
     std::vector<Settings> all;
-    const Technique* technique = occlusion();
-    if (!technique || !findField(technique->schema, "radius")) return all;
+    if (!tracedOcclusion(1)) return all;
     const TechniqueChoice choice = at({}).config.in("ao").front();
     for (const auto* other : allTechniques()) {
         if (other->slot != "ao" || !findField(other->schema, "radius")) continue;

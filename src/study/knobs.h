@@ -34,8 +34,9 @@ struct Variant {
 
 class StudyConfig {
 public:
-    /// `document`: of a render config at `path`; `scene` must outlive it.
-    StudyConfig(Node document, std::filesystem::path path, const LoadedScene& scene);
+    /// `document`: of a render config at `path`; `scene` must outlive it. `meshFile`: where the scene is a mesh file.
+    StudyConfig(
+        Node document, std::filesystem::path path, const LoadedScene& scene, const MeshFileOptions& meshFile = {});
 
     /// Throws what reading a config throws.
     Variant at(const Settings& settings) const;
@@ -61,6 +62,7 @@ private:
 
     Node document_;
     std::filesystem::path path_;
+    MeshFileOptions meshFile_;
     const LoadedScene& scene_;
 };
 

@@ -11,8 +11,9 @@
 namespace limn {
 namespace {
 
-constexpr int kSeeds = 8;                            // for the spread of an estimate
-constexpr std::uint64_t kMostTriangles = 6'000'000;  // of geometry that counts as the limit
+constexpr int kSeeds = 8;                                           // for the spread of an estimate
+constexpr const char* kTrueSeeds[] = {"2147483646", "2147483645"};  // of the truth: no config has them by chance
+constexpr std::uint64_t kMostTriangles = 6'000'000;                 // of geometry that counts as the limit
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -127,8 +128,9 @@ void Measurer::findOcclusion(Truth& truth, const Shot& shot) {
     Settings traced = with(base, *study_.tracedOcclusion(rays));
     traced["image.samples"] = traced["image.ao_samples"] = std::to_string(kSamples);
     // Two halves with seeds of their own: what they differ by is how far their mean may be off.
+    traced["image.seed"] = kTrueSeeds[0];
     const Variant variant = study_.at(traced);
-    traced["image.seed"] = "1";
+    traced["image.seed"] = kTrueSeeds[1];
     truth.occlusion = draw(variant, shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
     const auto other = draw(study_.at(traced), shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
     double squares = 0, count = 0;
@@ -184,35 +186,37 @@ std::pair<Image, Image> Measurer::truePictures() {
 }
 
 void Measurer::time(const Variant& variant, StudyPoint& point) {
-    std::vector<double> times;
-    std::map<std::string, std::vector<double>> slots;
+    const auto count = static_cast<double>(shots_.size());
     RenderOptions options;
     options.measure = true;
+    std::map<std::string, double> slots;
     for (const Shot& shot : shots_) {
         RenderConfig config = variant.config;
         if (!shot.camera.empty()) config.camera = shot.camera;
-        config.output.aovs = {&aov::beauty};
         config.image.transparent = false;
+        std::vector<double> times;
+        std::map<std::string, std::vector<double>> ofSlots;
         for (int run = 0; run <= settings_.repeat; ++run) {
             const auto begin = std::chrono::steady_clock::now();
             session_.renderer().render(config, *variant.scene, shot.frame, options);
             const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-            if (run == 0) {  // compiles, uploads, and warms up
+            if (run == 0) {  // compiles, uploads, draws shadow maps, and warms up
                 point.first = std::max(point.first, took.count());
                 continue;
             }
             times.push_back(took.count());
             std::map<std::string, double> sums;
             for (const auto& pass : session_.renderer().passTimes()) sums[pass.slot] += pass.milliseconds;
-            for (const auto& [slot, milliseconds] : sums) slots[slot].push_back(milliseconds);
+            for (const auto& [slot, milliseconds] : sums) ofSlots[slot].push_back(milliseconds);
         }
+        std::sort(times.begin(), times.end());
+        point.milliseconds += median(times) / count;
+        point.low += times[times.size() / 4] / count;
+        point.high += times[times.size() - 1 - times.size() / 4] / count;
+        for (const auto& [slot, all] : ofSlots) slots[slot] += median(all) / count;
     }
-    std::sort(times.begin(), times.end());
     point.runs = settings_.repeat;
-    point.milliseconds = median(times);
-    point.low = times[times.size() / 4];
-    point.high = times[times.size() - 1 - times.size() / 4];
-    for (const auto& [slot, all] : slots) point.slots.emplace_back(slot, median(all));
+    point.slots.assign(slots.begin(), slots.end());
 }
 
 double Measurer::timeOnce(const Settings& settings) {
@@ -302,7 +306,8 @@ StudyPoint Measurer::measure(const Settings& settings, PointPictures& pictures) 
 }
 
 ErrorSplit Measurer::split(const Settings& settings) {
-    ErrorSplit split;
+    // What rays see is not bounded by the depth buffer.
+    const bool isTraced = study_.at(settings).config.in("ao").front().technique == findTechnique("ao", "ray_traced");
     const auto count = static_cast<double>(shots_.size());
     double unseen = 0, estimator = 0, sampling = 0;
     for (std::size_t s = 0; s < shots_.size(); ++s) {
@@ -321,7 +326,8 @@ ErrorSplit Measurer::split(const Settings& settings) {
         double n = 0, ofShell = 0, ofMean = 0, ofChance = 0;
         for (std::size_t i = 0; i < sum.size(); ++i) {
             if (known.occlusion[i] < 0) continue;
-            const double mean = sum[i] / kSeeds, shell = static_cast<double>(known.shell[i]);
+            const double mean = sum[i] / kSeeds;
+            const auto shell = static_cast<double>(isTraced ? known.occlusion[i] : known.shell[i]);
             const double variance = std::max(0.0, (squares[i] - kSeeds * mean * mean) / (kSeeds - 1));
             ofShell += std::pow(shell - static_cast<double>(known.occlusion[i]), 2);
             ofMean += std::pow(mean - shell, 2) - variance / kSeeds;  // the mean's own chance

@@ -25,8 +25,8 @@ struct QualityChoice {
 QualityChoice chooseQuality(
     Session& session, const RenderConfig& config, const ConfigOverrides& overrides, const std::filesystem::path& kept);
 
-/// "walk_####.png" → "walk.quality.toml".
-std::filesystem::path qualityFile(const std::filesystem::path& output);
+/// "walk_####.png" of walk.toml → "walk.walk.quality.toml": configs with one output do not share it.
+std::filesystem::path qualityFile(const std::filesystem::path& output, const std::filesystem::path& config);
 
 /// The config with its promise kept.
 RenderConfig withQuality(Session& session, const RenderConfig& config, const ConfigOverrides& overrides,

@@ -111,6 +111,7 @@ Json jsonOf(const SweepReport& report) {
             {"points", names}, {"fit", jsonOf(fitFront(report.points, front, byOcclusion))}};
     }
     for (const auto& point : report.points) json["points"].push_back(jsonOf(point));
+    for (const auto& point : report.others) json["points"].push_back(jsonOf(point));
     return json;
 }
 
@@ -179,9 +180,9 @@ void replace(std::string& text, std::string_view what, std::string_view by) {
     if (at != std::string::npos) text.replace(at, what.size(), by);
 }
 
-/// JSON within a page: no "</" may end the script early.
+/// JSON within a page: nothing in it may look like an end of the script.
 std::string withinScript(std::string json) {
-    for (std::size_t i = 0; (i = json.find("</", i)) != std::string::npos; i += 3) json.insert(i + 1, 1, '\\');
+    for (std::size_t i = 0; (i = json.find('<', i)) != std::string::npos; i += 6) json.replace(i, 1, "\\u003c");
     return json;
 }
 
@@ -218,22 +219,19 @@ void writeFigures(const std::filesystem::path& folder, const SweepReport& report
     replaceFile(folder / "study.json", jsonOf(report).dump(1) + "\n");
 }
 
-std::vector<StudyPoint> readFigures(const std::filesystem::path& folder, const std::string& identity) {
+void readFigures(const std::filesystem::path& folder, const std::string& identity, SweepHooks& hooks) {
     const auto file = folder / "study.json";
-    if (!fileExists(file)) return {};
+    if (!fileExists(file)) return;
     try {
         const Json json = Json::parse(MappedFile(file).text());
-        if (json.at("identity") != identity) {
-            log::info("{}: of another study; begun anew", file.string());
-            return {};
-        }
+        if (json.at("identity") != identity) return log::info("{}: of another study; begun anew", file.string());
         std::vector<StudyPoint> points;
         for (const auto& point : json.at("points")) points.push_back(pointOf(point));
-        log::info("{}: goes on after {} settings", file.string(), points.size());
-        return points;
+        if (json.contains("truth_error")) hooks.knownTruthError = json.at("truth_error").get<double>();
+        hooks.known = std::move(points);
+        log::info("{}: goes on after {} settings", file.string(), hooks.known.size());
     } catch (const Json::exception& error) {
         log::warning("{}: cannot be read ({}); begun anew", file.string(), error.what());
-        return {};
     }
 }
 
@@ -244,8 +242,8 @@ void writeResults(const std::filesystem::path& folder, const SweepReport& report
     Json data = jsonOf(report);
     data["images"] = imagesOf(folder, report);
     std::string page(limnStudyPage, limnStudyPageEnd);
-    replace(page, "@DATA@", withinScript(data.dump()));
     replace(page, "@CHART@", std::string_view(limnChart, limnChartEnd));
+    replace(page, "@DATA@", withinScript(data.dump()));
     replaceFile(folder / "index.html", page);
 }
 

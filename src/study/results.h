@@ -15,8 +15,8 @@ void writeTruth(const std::filesystem::path& folder, const Image& picture, const
 
 /// study.json: everything that a later run needs to go on.
 void writeFigures(const std::filesystem::path& folder, const SweepReport& report);
-/// The points in `folder` of a study with this identity; none where there is no such study, or it cannot be read.
-std::vector<StudyPoint> readFigures(const std::filesystem::path& folder, const std::string& identity);
+/// What `folder` knows of a study with this identity; nothing where there is no such study, or it cannot be read.
+void readFigures(const std::filesystem::path& folder, const std::string& identity, SweepHooks& hooks);
 
 /// The front as a drawing that stands by itself.
 std::string frontSvg(const SweepReport& report);

@@ -64,6 +64,8 @@ public:
                 if (v != knob.current) try_({{knob.key, knob.values[v]}}, "knob", knob.key);
         refine(byOcclusion);
         if (byOcclusion) splitFront();
+        report_.points.insert(report_.points.end(), report_.others.begin(), report_.others.end());
+        report_.others.clear();
         if (untried_ > 0)
             report_.notes.push_back(fmt::format(
                 "the time ended with {} setting{} untried; --budget gives more", untried_, untried_ == 1 ? "" : "s"));
@@ -96,6 +98,7 @@ private:
             [&](const StudyPoint& point) { return point.settings == settings; });
         if (known != hooks_.known.end()) {
             report_.points.push_back(*known);
+            std::erase_if(report_.others, [&](const StudyPoint& point) { return point.settings == settings; });
             return;
         }
         if (spent_ > settings_.seconds && !report_.points.empty()) {
@@ -165,8 +168,8 @@ private:
 
     void tryValue(Settings settings, const Knob& knob, std::size_t value) {
         settings[knob.key] = knob.values[value];
-        if (knob.key.starts_with("scene.") && (knob.values[value] == "0" || knob.values[value] == "1"))
-            settings.erase(knob.key);  // as the scene is
+        const bool isNeutral = knob.values[value] == (knob.key == "scene.subdivision.level" ? "0" : "1");
+        if (knob.key.starts_with("scene.") && isNeutral) settings.erase(knob.key);  // as the scene is
         try_(settings, "refined", "");
     }
 
@@ -285,6 +288,8 @@ SweepReport runSweep(Session& session, Node document, const std::filesystem::pat
     report.device = session.renderer().device().report().renderer;
     report.identity = sweepIdentity(session, config, settings);
     report.size = config.image.size;
+    report.others = hooks.known;
+    report.truthError = hooks.knownTruthError;
     for (const auto& shot : shots) report.shots.push_back(shotName(shot));
     Sweeper(session, study, settings, shots, hooks, report).run();
     return report;

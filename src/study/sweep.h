@@ -90,6 +90,7 @@ struct SweepReport {
     std::vector<std::string> shots;    ///< "camera A, frame 1"
     std::optional<double> truthError;  ///< standard error of true ambient occlusion, root mean square
     std::vector<StudyPoint> points;
+    std::vector<StudyPoint> others;  ///< of an earlier run, not come to yet
     std::vector<std::string> notes;  ///< "the budget ended with 14 settings untried"
     bool hasOcclusion() const { return !points.empty() && points.front().occlusion.has_value(); }
 };
@@ -101,7 +102,8 @@ std::vector<std::size_t> paretoFront(const std::vector<StudyPoint>& points, bool
 FrontFit fitFront(const std::vector<StudyPoint>& points, std::span<const std::size_t> front, bool byOcclusion);
 
 struct SweepHooks {
-    std::vector<StudyPoint> known;  ///< from an earlier run of the same identity
+    std::vector<StudyPoint> known;  ///< from an earlier run of the same identity, as is:
+    std::optional<double> knownTruthError;
     /// After each new point; the pictures are empty where there are none.
     std::function<void(const SweepReport&, const StudyPoint&, const PointPictures&)> onPoint;
     /// The true picture (display values) and ambient occlusion (empty without), once they are known.

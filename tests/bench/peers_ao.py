@@ -62,7 +62,8 @@ def limn_draws(limn, folder, place, ao):
                    "path = 'p.png'\nbits = 16\naovs = ['ambient_occlusion']\n" % (ao, radius))
     times = []
     for _ in range(3):
-        subprocess.run([limn, "--quiet", "render", folder + "/config.toml", "--stats", folder + "/stats.json"], check=True)
+        subprocess.run([limn, "--quiet", "render", folder + "/config.toml", "--stats", folder + "/stats.json"],
+                       check=True)
         times.append(json.load(open(folder + "/stats.json"))["frames"][0]["parts"]["draw"] / 1000)
     return gray(folder + "/p.ambient_occlusion.png"), sorted(times)[1]
 
@@ -81,7 +82,8 @@ def score(draw):
         truth = gray("%s/ao_scenes/%s_A.cycles512.png" % (DATA, place))
         picture, took = draw(place)
         off = (picture - truth)[inside(truth)]
-        squares, sums, count, seconds = squares + (off ** 2).sum(), sums + off.sum(), count + off.size, seconds + took
+        squares, sums = squares + (off ** 2).sum(), sums + off.sum()
+        count, seconds = count + off.size, seconds + took
     return math.sqrt(squares / count), sums / count, seconds / len(PLACES)
 
 
@@ -93,7 +95,7 @@ def chart(rows, path):
     y = lambda v: height - bottom - (math.log10(v) - low_y) / (high_y - low_y) * (height - top - bottom)
     svg = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d" font-family="sans-serif" font-size="12">'
            % (width, height), '<rect width="100%" height="100%" fill="#fff"/>',
-           '<text x="%d" y="24" font-size="15">Ambient occlusion beside Cycles: limn and EEVEE, two cores</text>' % left]
+           '<text x="%d" y="24" font-size="15">Ambient occlusion beside Cycles: limn, EEVEE; two cores</text>' % left]
     for power in range(-4, 3):
         for step in (1, 2, 5):
             value = step * 10.0 ** power
@@ -103,7 +105,8 @@ def chart(rows, path):
             if low_y <= math.log10(value) <= high_y:
                 svg.append('<path d="M%d %.1fH%d" stroke="#ddd"/><text x="%d" y="%.1f" text-anchor="end">%g</text>'
                            % (left, y(value), width - right, left - 6, y(value) + 4, value))
-    svg.append('<text x="%d" y="%d" text-anchor="middle">seconds a picture of 640×360; errors away from edges</text>' % (width / 2, height - 12))
+    svg.append('<text x="%d" y="%d" text-anchor="middle">seconds a picture of 640×360; errors away from edges</text>'
+               % (width / 2, height - 12))
     svg.append('<text transform="translate(18 %d) rotate(-90)" text-anchor="middle">RMSE</text>' % (height / 2))
     for number, (name, error, _, seconds) in enumerate(rows):
         above = 16 if number % 2 else -9  # names of neighbours do not meet

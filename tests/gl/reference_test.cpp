@@ -50,15 +50,17 @@ void compare(const Picture& picture, const std::function<double(const glm::dvec3
             if (wanted < 0) continue;
             const double difference = *ao.at(x, y) - wanted;
             // 1e-3: the grid of hiddenShare. Five standard errors: six thousand pixels, none of which may fail by
-            // chance.
-            EXPECT_LE(std::abs(difference), 5 * *error.at(x, y) + 1e-3) << x << ", " << y;
+            // chance. One hit of 1024 rays: groups of rays may all have as many hits, which are none too exact.
+            EXPECT_LE(std::abs(difference), 5 * *error.at(x, y) + 1e-3 + 1.0 / 1024) << x << ", " << y;
             sum += difference;
             squares += difference * difference;
             expected += double(*error.at(x, y)) * *error.at(x, y);
             ++count;
         }
     EXPECT_GE(count, atLeast);
-    EXPECT_LE(std::abs(sum / count), 1e-3);
+    // The pixels of a wedge lie in one row or two, which have four pixels' rays each: 4096 rays find a half-space
+    // within 0.0023 (40 places, each row of a tile), and the grid is as good as above.
+    EXPECT_LE(std::abs(sum / count), 3.3e-3);
     // The estimate of the error is no excuse and no boast: rays are spread more evenly than groups of them, by up to a
     // factor of 4 measured.
     EXPECT_LE(std::sqrt(squares / count), 1.2 * std::sqrt(expected / count) + 5e-4);
