@@ -52,31 +52,31 @@ void Executor::allocate(const Plan& plan) {
         textures_[i] = gl::Texture(plan.textures[i].format, plan.textures[i].size, fmt::format("texture {}", i));
 }
 
+/// Index into Plan::textures.
+static std::size_t textureOf(const Plan& plan, ResourceId resource) {
+    return static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(resource.index)]);
+}
+
 bool Executor::isKept(const Plan& plan, const Pass& pass, const GpuScene& scene) const {
     return pass.isOfLights && std::all_of(pass.writes.begin(), pass.writes.end(), [&](const Write& write) {
-        const int texture = plan.textureOf[static_cast<std::size_t>(write.resource.index)];
-        const auto seen = seenByLights_.find(static_cast<std::size_t>(texture));
+        const auto seen = seenByLights_.find(textureOf(plan, write.resource));
         return seen != seenByLights_.end() && seen->second == scene.shadowsKey();
     });
 }
 
 void Executor::forgetContent(const Plan& plan, const PlannedPass& planned, const Pass& pass) {
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
-        if (planned.writes[w])
-            seenByLights_.erase(
-                static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)]));
+        if (planned.writes[w]) seenByLights_.erase(textureOf(plan, pass.writes[w].resource));
 }
 
 void Executor::noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene) {
     if (!pass.isOfLights) return;
     for (std::size_t w = 0; w < pass.writes.size(); ++w)
-        if (planned.writes[w])
-            seenByLights_[static_cast<std::size_t>(
-                plan.textureOf[static_cast<std::size_t>(pass.writes[w].resource.index)])] = scene.shadowsKey();
+        if (planned.writes[w]) seenByLights_[textureOf(plan, pass.writes[w].resource)] = scene.shadowsKey();
 }
 
 const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) const {
-    return textures_.at(static_cast<std::size_t>(plan.textureOf[static_cast<std::size_t>(resource.index)]));
+    return textures_.at(textureOf(plan, resource));
 }
 
 void Executor::run(

@@ -47,6 +47,7 @@ private:
     void allocate(const Plan& plan);
     /// Do the pass's images show already what lights see?
     bool isKept(const Plan& plan, const Pass& pass, const GpuScene& scene) const;
+    /// Before a pass and after it: a texture that is half written shows nothing that can be kept.
     void forgetContent(const Plan& plan, const PlannedPass& planned, const Pass& pass);
     void noteContent(const Plan& plan, const PlannedPass& planned, const Pass& pass, const GpuScene& scene);
     void runOnDevice(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,

@@ -91,8 +91,7 @@ ContentKey Session::pixelsKey(const RenderConfig& config, int frame) {
 }
 
 PlanReport Session::plan(const RenderConfig& config, int frame) {
-    constexpr int kAnySize = 16384;
-    return reportPlan(config, load(config), frame, renderer_ ? renderer_->largestTexture() : kAnySize);
+    return reportPlan(config, load(config), frame, renderer_ ? renderer_->largestTexture() : kAnyTexture);
 }
 
 }  // namespace limn

@@ -15,8 +15,6 @@
 namespace limn {
 namespace {
 
-constexpr int kAnyTexture = 16384;  // nothing here depends on the size of tiles
-
 /// A frame, as far as frames are compared.
 struct State {
     SceneAt scene;

@@ -43,6 +43,9 @@ struct TilePipelines {
 ViewRequest viewRequest(
     const RenderConfig& config, const Sampling& sampling, int frame, int guard, int keptGuard, const Tile& tile = {});
 
+/// The largest texture, where no driver is asked: what a picture needs does not depend on it.
+inline constexpr int kAnyTexture = 16384;
+
 /// `maxTextureSize` is the driver's; it may change the split of samples, but not the data that the scene must have.
 TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, const SceneFacts& facts, int frame,
     int maxTextureSize, int keptGuard, const Tile& tile = {});

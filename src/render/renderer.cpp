@@ -494,9 +494,8 @@ MadeMeshes makeMeshesOf(const RenderConfig& config, const LoadedScene& loaded, i
     const FrameRequest request = frameRequest(config, frame);
     const SceneAt scene = sceneAt(loaded, request);
     const PixelRect block{glm::ivec2(0), largestBlock(config.image.size)};
-    constexpr int kAnySize = 16384;
     const TilePipelines pipelines =
-        buildPipelines(config, scene, sceneFacts(scene), frame, kAnySize, 0, {block, block});
+        buildPipelines(config, scene, sceneFacts(scene), frame, kAnyTexture, 0, {block, block});
     const MeshOrders orders = orderMeshes(loaded, scene, request, meshNeeds(pipelines.sceneData()));
     return makeMeshes(
         loaded, scene, request, orders, [&](const MeshOrder& order) { return !held.contains(order.key); });

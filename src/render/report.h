@@ -16,7 +16,8 @@ struct PlanReport {
 };
 
 /// Plans a frame. `maxTextureSize` is the driver's.
-PlanReport reportPlan(const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize = 16384);
+PlanReport reportPlan(
+    const RenderConfig& config, const LoadedScene& loaded, int frame, int maxTextureSize = kAnyTexture);
 
 /// What a frame needs that the one before it did not leave behind.
 struct FrameChange {

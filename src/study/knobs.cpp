@@ -15,7 +15,6 @@ namespace limn {
 namespace {
 
 constexpr std::string_view kLevel = "scene.subdivision.level", kShadow = "scene.shadow.resolution";
-constexpr int kAnyTexture = 16384;  // what a plan makes does not depend on it
 
 /// Of all passes that run: settings that leave it alone change nothing of a picture.
 ContentKey planKey(const Variant& variant, int frame) {
@@ -152,12 +151,6 @@ Variant StudyConfig::at(const Settings& settings) const {
     return variant;
 }
 
-const Technique* StudyConfig::occlusion() const {
-    const Variant variant = at({});
-    const auto& choices = variant.config.in("ao");
-    return choices.empty() ? nullptr : choices.front().technique;
-}
-
 /// Does a technique, as it is set, find the visibility that rays find? Not with an exponent on it, a radius in the
 /// picture, or keyframes, which the truth does not have.
 static bool findsVisibility(const TechniqueChoice& choice) {
@@ -172,11 +165,11 @@ static bool findsVisibility(const TechniqueChoice& choice) {
 }
 
 std::optional<Settings> StudyConfig::tracedOcclusion(int rays) const {
-    const Technique* traced = findTechnique("ao", "ray_traced");
-    if (!occlusion() || !findsVisibility(at({}).config.in("ao").front())) return std::nullopt;
-    return Settings{{"ao",
-        fmt::format("{{ technique = \"ray_traced\", rays = {}{} }}", rays,
-            sharedSettings(*traced, at({}).config.in("ao").front(), "rays"))}};
+    const Variant variant = at({});
+    const auto& choices = variant.config.in("ao");
+    if (choices.empty() || !findsVisibility(choices.front())) return std::nullopt;
+    const std::string shared = sharedSettings(*findTechnique("ao", "ray_traced"), choices.front(), "rays");
+    return Settings{{"ao", fmt::format("{{ technique = \"ray_traced\", rays = {}{} }}", rays, shared)}};
 }
 
 std::vector<Settings> StudyConfig::alternatives() const {
@@ -250,7 +243,7 @@ std::vector<Knob> StudyConfig::knobs(const Settings& settings, int frame) const 
     const bool hasCages = std::any_of(drawn.begin(), drawn.end(), [](const auto& i) { return i.isSubdivided; });
     std::erase_if(found, [&](Knob& knob) {
         if (knob.key == kLevel) return !hasCages;
-        // A knob counts if its ends do not plan the same. Values that a config refuses are left out.
+        // A knob counts if one of its values plans something else. Values that a config refuses are left out.
         bool matters = false;
         const std::string current = knob.values[knob.current];
         std::erase_if(knob.values, [&](const std::string& value) {

@@ -58,8 +58,6 @@ public:
     const LoadedScene& scene() const { return scene_; }
 
 private:
-    const Technique* occlusion() const;  ///< the config's, or null
-
     Node document_;
     std::filesystem::path path_;
     MeshFileOptions meshFile_;

@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "settings/color.h"
+#include "study/shell.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,8 @@
 namespace limn {
 namespace {
 
-constexpr int kSeeds = 8;                                           // for the spread of an estimate
-constexpr const char* kTrueSeeds[] = {"2147483646", "2147483645"};  // of the truth: no config has them by chance
-constexpr std::uint64_t kMostTriangles = 6'000'000;                 // of geometry that counts as the limit
+constexpr int kSeeds = 8;                            // for the spread of an estimate
+constexpr std::uint64_t kMostTriangles = 6'000'000;  // of geometry that counts as the limit
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -124,27 +124,18 @@ void Measurer::findOcclusion(Truth& truth, const Shot& shot) {
                           plain.config.image.guard * std::max(plain.config.image.size.x, plain.config.image.size.y)))
         / 2 * 2;
     const std::vector<const Aov*> surfaces{&aov::depth, &aov::normalGeometric};
-    truth.classes = classifyPixels(draw(plain, shot, surfaces));
+    const RenderedFrame seen = draw(plain, shot, surfaces);
+    truth.classes = classifyPixels(seen);
     Settings traced = with(base, *study_.tracedOcclusion(rays));
     traced["image.samples"] = traced["image.ao_samples"] = std::to_string(kSamples);
-    // Two halves with seeds of their own: what they differ by is how far their mean may be off.
-    traced["image.seed"] = kTrueSeeds[0];
+    traced["image.seed"] = Halves::kSeeds[0];
     const Variant variant = study_.at(traced);
-    traced["image.seed"] = kTrueSeeds[1];
+    traced["image.seed"] = Halves::kSeeds[1];
     truth.occlusion = draw(variant, shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
     const auto other = draw(study_.at(traced), shot, {&aov::ambientOcclusion}).layers[0].image.pixels;
-    double squares = 0, count = 0;
-    for (std::size_t i = 0; i < truth.occlusion.size(); ++i) {
-        const double off = 0.5 * (static_cast<double>(truth.occlusion[i]) - static_cast<double>(other[i]));
-        truth.occlusion[i] = 0.5f * (truth.occlusion[i] + other[i]);
-        if (truth.classes[i] == PixelClass::background) {
-            truth.occlusion[i] = -1;
-            continue;
-        }
-        squares += off * off;
-        ++count;
-    }
-    truthError_ = std::max(truthError_, std::sqrt(squares / std::max(count, 1.0)));
+    Halves halves;
+    halves.join(truth.occlusion, other, seen.layers[0].image.pixels);
+    truthError_ = std::max(truthError_, halves.standardError());
 
     const Field* radius = findField(variant.config.in("ao").front().technique->schema, "radius");
     const Length length =
@@ -219,12 +210,7 @@ void Measurer::time(const Variant& variant, StudyPoint& point) {
     point.slots.assign(slots.begin(), slots.end());
 }
 
-double Measurer::timeOnce(const Settings& settings) {
-    const Variant variant = study_.at(settings);
-    const auto begin = std::chrono::steady_clock::now();
-    draw(variant, shots_.front(), {&aov::beauty});
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
+void Measurer::tryDrawing(const Settings& settings) { draw(study_.at(settings), shots_.front(), {&aov::beauty}); }
 
 GeometryError Measurer::geometryError(const RenderedFrame& seen, const RenderedFrame& finest) const {
     std::vector<double> off;
@@ -235,12 +221,9 @@ GeometryError Measurer::geometryError(const RenderedFrame& seen, const RenderedF
         for (int x = 0; x < truth.width; ++x) {
             const double a = static_cast<double>(*depth.at(x, y)), b = static_cast<double>(*truth.at(x, y));
             if (!std::isfinite(a) || !std::isfinite(b)) continue;
-            const glm::dvec2 ray =
-                (glm::dvec2(view.region.origin + glm::ivec2(x, truth.height - 1 - y)) + 0.5) * view.rayScale
-                + view.rayOffset;
             const float* n = normals.at(x, y);
             // Along the normal: depths differ a lot where a surface is seen at a slant.
-            const glm::dvec3 along = view.orthographic ? glm::dvec3(0, 0, -1) : glm::dvec3(ray, -1);
+            const glm::dvec3 along = view.orthographic ? glm::dvec3(0, 0, -1) : placeOf(view, x, y, 1);
             const double cosine = std::abs(glm::dot(along, glm::dvec3(n[0], n[1], n[2])));
             const double footprint = view.rayScale.x * (view.orthographic ? 1 : b * view.unit);
             const double pixels = std::abs(a - b) * view.unit * cosine / footprint;
@@ -250,9 +233,7 @@ GeometryError Measurer::geometryError(const RenderedFrame& seen, const RenderedF
             off.push_back(pixels);
         }
     if (off.empty()) return {};
-    const auto rank = off.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(off.size() - 1));
-    std::nth_element(off.begin(), rank, off.end());
-    return {std::sqrt(squares / static_cast<double>(off.size())), *rank};
+    return {std::sqrt(squares / static_cast<double>(off.size())), percentile99(std::move(off))};
 }
 
 StudyPoint Measurer::measure(const Settings& settings, PointPictures& pictures) {

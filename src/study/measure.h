@@ -18,8 +18,8 @@ public:
     StudyPoint measure(const Settings& settings, PointPictures& pictures);
     /// Where the error of ambient occlusion comes from, for a setting of the config that draws it.
     ErrorSplit split(const Settings& settings);
-    /// Milliseconds of drawing the first shot once.
-    double timeOnce(const Settings& settings);
+    /// Draws the first shot once: finds what cannot be drawn before time is spent on the truth.
+    void tryDrawing(const Settings& settings);
 
     double truthError() const { return truthError_; }
     /// The true pictures of the first shot: display-encoded colours, and visibility (empty without ambient occlusion).

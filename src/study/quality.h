@@ -12,23 +12,9 @@
 
 namespace limn {
 
-/// What was chosen for a config, and what is expected of it.
-struct QualityChoice {
-    Settings settings;
-    double expected = 0;  ///< error or seconds
-    std::string promise;  ///< "error 0.02 promised, 0.0173 expected"
-};
-
-/// Chooses settings, or takes them from `kept` (a TOML file beside the pictures) where that was made for the same
-/// config and scene; writes it otherwise. All processes that draw one config find the same for an error. Throws Error
-/// (usage) where no setting keeps the promise.
-QualityChoice chooseQuality(
-    Session& session, const RenderConfig& config, const ConfigOverrides& overrides, const std::filesystem::path& kept);
-
-/// "walk_####.png" of walk.toml → "walk.walk.quality.toml": configs with one output do not share it.
-std::filesystem::path qualityFile(const std::filesystem::path& output, const std::filesystem::path& config);
-
-/// The config with its promise kept.
+/// The config with settings that keep its promise. They are chosen, or taken from a TOML file beside `output` where
+/// that was made for the same config and scene; it is written otherwise. All processes that draw one config find the
+/// same for an error. Throws Error (usage) where no setting keeps the promise.
 RenderConfig withQuality(Session& session, const RenderConfig& config, const ConfigOverrides& overrides,
     const std::filesystem::path& output);
 

@@ -5,9 +5,21 @@
 
 namespace limn {
 
+glm::dvec3 placeOf(const View& view, int x, int y, double z) {
+    const glm::ivec2 pixel = view.region.origin + glm::ivec2(x, view.region.size.y - 1 - y);
+    const glm::dvec2 ray = (glm::dvec2(pixel) + 0.5) * view.rayScale + view.rayOffset;
+    return {view.orthographic ? ray : ray * z, -z};
+}
+
+bool areJoined(const View& view, const glm::dvec3& a, const glm::dvec3& b, const float* normalA, const float* normalB) {
+    constexpr double kOffPlane = 1;  // pixel footprints: the sides of a corner are nearer, outlines farther
+    const auto off = [&](const float* n) { return std::abs(glm::dot(b - a, glm::dvec3(n[0], n[1], n[2]))); };
+    const double footprint = view.rayScale.x * (view.orthographic ? 1 : std::min(-a.z, -b.z));
+    return std::min(off(normalA), off(normalB)) <= kOffPlane * footprint;
+}
+
 std::unique_ptr<RayScene> buildShell(
     const View& view, const SceneInfo& scene, std::span<const float> depth, std::span<const float> normals) {
-    constexpr double kOffPlane = 1;  // pixel footprints: the sides of a corner are nearer, outlines farther
     const glm::ivec2 size = view.region.size;
     TriMesh mesh;
     const auto index = [&](int x, int y) {
@@ -16,20 +28,12 @@ std::unique_ptr<RayScene> buildShell(
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const double z = static_cast<double>(depth[index(x, y)]) * view.unit;
-            const glm::dvec2 ray =
-                (glm::dvec2(view.region.origin + glm::ivec2(x, size.y - 1 - y)) + 0.5) * view.rayScale + view.rayOffset;
-            mesh.positions.emplace_back(
-                std::isfinite(z) ? glm::dvec3(view.orthographic ? ray : ray * z, -z) : glm::dvec3(0));
+            mesh.positions.emplace_back(std::isfinite(z) ? placeOf(view, x, y, z) : glm::dvec3(0));
         }
     const auto joined = [&](std::size_t a, std::size_t b) {
-        if (!std::isfinite(depth[a]) || !std::isfinite(depth[b])) return false;
-        const glm::dvec3 pa(mesh.positions[a]), pb(mesh.positions[b]);
-        const auto normal = [&](std::size_t i) {
-            return glm::dvec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
-        };
-        const double footprint = view.rayScale.x * (view.orthographic ? 1 : std::min(-pa.z, -pb.z));
-        return std::min(std::abs(glm::dot(pb - pa, normal(a))), std::abs(glm::dot(pb - pa, normal(b))))
-            <= kOffPlane * footprint;
+        return std::isfinite(depth[a]) && std::isfinite(depth[b])
+            && areJoined(
+                view, glm::dvec3(mesh.positions[a]), glm::dvec3(mesh.positions[b]), &normals[3 * a], &normals[3 * b]);
     };
     for (int y = 0; y + 1 < size.y; ++y)
         for (int x = 0; x + 1 < size.x; ++x) {

@@ -107,7 +107,7 @@ private:
         }
         PointPictures pictures;
         try {
-            if (report_.points.empty()) measurer_.timeOnce(settings);  // finds what cannot be drawn before the truth
+            if (report_.points.empty()) measurer_.tryDrawing(settings);
             StudyPoint point = measurer_.measure(settings, pictures);
             if (hooks_.onTruth && !std::exchange(isTruthTold_, true)) {
                 const auto [picture, occlusion] = measurer_.truePictures();

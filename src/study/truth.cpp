@@ -12,6 +12,13 @@
 
 namespace limn {
 
+double percentile99(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), rank, values.end());
+    return *rank;
+}
+
 Deviation compare(std::span<const float> picture, std::span<const float> truth) {
     std::vector<double> off;
     double sum = 0, squares = 0;
@@ -24,9 +31,18 @@ Deviation compare(std::span<const float> picture, std::span<const float> truth) 
     }
     if (off.empty()) return {};
     const auto n = static_cast<double>(off.size());
-    const auto rank = off.begin() + static_cast<std::ptrdiff_t>(0.99 * (n - 1));
-    std::nth_element(off.begin(), rank, off.end());
-    return {std::sqrt(squares / n), sum / n, *rank};
+    return {std::sqrt(squares / n), sum / n, percentile99(std::move(off))};
+}
+
+void Halves::join(std::vector<float>& first, std::span<const float> second, std::span<const float> depth) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const double off = 0.5 * (static_cast<double>(first[i]) - static_cast<double>(second[i]));
+        const bool isSurface = std::isfinite(depth[i]);
+        first[i] = isSurface ? 0.5f * (first[i] + second[i]) : -1;
+        if (!isSurface) continue;
+        squares_ += off * off;
+        ++count_;
+    }
 }
 
 namespace {
@@ -119,20 +135,13 @@ std::vector<PixelClass> classifyPixels(const RenderedFrame& seen) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
     };
     const auto place = [&](int x, int y) {
-        const double z = static_cast<double>(*depth.at(x, y)) * seen.view.unit;
-        const glm::dvec2 ray =
-            (glm::dvec2(seen.view.region.origin + glm::ivec2(x, size.y - 1 - y)) + 0.5) * seen.view.rayScale
-            + seen.view.rayOffset;
-        return glm::dvec3(seen.view.orthographic ? ray : ray * z, -z);
+        return placeOf(seen.view, x, y, static_cast<double>(*depth.at(x, y)) * seen.view.unit);
     };
     const auto jumps = [&](int x, int y, int toX, int toY) {
         if (toX < 0 || toY < 0 || toX >= size.x || toY >= size.y) return false;
         const bool here = std::isfinite(*depth.at(x, y)), there = std::isfinite(*depth.at(toX, toY));
         if (!here || !there) return here != there;
-        const glm::dvec3 a = place(x, y), b = place(toX, toY);
-        const auto off = [&](const float* n) { return std::abs(glm::dot(b - a, glm::dvec3(n[0], n[1], n[2]))); };
-        const double footprint = seen.view.rayScale.x * (seen.view.orthographic ? 1 : std::min(-a.z, -b.z));
-        return std::min(off(normals.at(x, y)), off(normals.at(toX, toY))) > footprint;
+        return !areJoined(seen.view, place(x, y), place(toX, toY), normals.at(x, y), normals.at(toX, toY));
     };
     std::vector<std::uint8_t> jump(depth.pixels.size());
     tbb::parallel_for(0, size.y, [&](int y) {

@@ -3,6 +3,7 @@
 
 #include "job/session.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +17,25 @@ struct Deviation {
 
 /// Pixels whose truth is below 0 do not count; `channels` of a pixel count one by one.
 Deviation compare(std::span<const float> picture, std::span<const float> truth);
+
+/// The 99th percentile; 0 of nothing.
+double percentile99(std::vector<double> values);
+
+/// True visibility from two halves that were drawn with seeds of their own: what they differ by is how far their mean
+/// may be off.
+class Halves {
+public:
+    /// Values of image.seed that no config has by chance.
+    static constexpr const char* kSeeds[] = {"2147483646", "2147483645"};
+
+    /// Turns the first half into the mean of both; below 0 where there is no surface, which is where depth is infinite.
+    void join(std::vector<float>& first, std::span<const float> second, std::span<const float> depth);
+    /// Root mean square, over all that was joined.
+    double standardError() const { return count_ > 0 ? std::sqrt(squares_ / count_) : 0; }
+
+private:
+    double squares_ = 0, count_ = 0;
+};
 
 /// Structural similarity of two grey pictures (Wang, Bovik, Sheikh & Simoncelli, IEEE TIP 2004, eq. 13): windows with
 /// Gaussian weights of sigma 1.5 over 11 × 11 pixels, K1 = 0.01, K2 = 0.03, values 0 … 1; the mean over all pixels,

@@ -37,30 +37,24 @@ static void waitFor(const char* path, const char* part, const char* variable) {
     const char* milliseconds = getenv(variable);
     if (milliseconds && strstr(path, part)) usleep(1000 * atoi(milliseconds));
 }
-FILE* fopen64(const char* path, const char* mode) {
-    waitFor(path, "wave_", "WAIT_READ");
-    return ((FILE * (*)(const char*, const char*)) dlsym(RTLD_NEXT, "fopen64"))(path, mode);
-}
-FILE* fopen(const char* path, const char* mode) {
-    waitFor(path, "wave_", "WAIT_READ");
-    return ((FILE * (*)(const char*, const char*)) dlsym(RTLD_NEXT, "fopen"))(path, mode);
-}
-int open(const char* path, int flags, ...) {
-    va_list rest;
-    va_start(rest, flags);
-    int mode = va_arg(rest, int);
-    va_end(rest);
-    waitFor(path, "wave_", "WAIT_READ");
-    return ((int (*)(const char*, int, int))dlsym(RTLD_NEXT, "open"))(path, flags, mode);
-}
-int open64(const char* path, int flags, ...) {
-    va_list rest;
-    va_start(rest, flags);
-    int mode = va_arg(rest, int);
-    va_end(rest);
-    waitFor(path, "wave_", "WAIT_READ");
-    return ((int (*)(const char*, int, int))dlsym(RTLD_NEXT, "open64"))(path, flags, mode);
-}
+#define OPENS_STREAM(name) \
+    FILE* name(const char* path, const char* mode) { \
+        waitFor(path, "wave_", "WAIT_READ"); \
+        return ((FILE * (*)(const char*, const char*)) dlsym(RTLD_NEXT, #name))(path, mode); \
+    }
+#define OPENS_FILE(name) \
+    int name(const char* path, int flags, ...) { \
+        va_list rest; \
+        va_start(rest, flags); \
+        int mode = va_arg(rest, int); \
+        va_end(rest); \
+        waitFor(path, "wave_", "WAIT_READ"); \
+        return ((int (*)(const char*, int, int))dlsym(RTLD_NEXT, #name))(path, flags, mode); \
+    }
+OPENS_STREAM(fopen)
+OPENS_STREAM(fopen64)
+OPENS_FILE(open)
+OPENS_FILE(open64)
 int rename(const char* from, const char* to) {
     waitFor(to, "picture_", "WAIT_WRITE");
     return ((int (*)(const char*, const char*))dlsym(RTLD_NEXT, "rename"))(from, to);
