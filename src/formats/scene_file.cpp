@@ -421,6 +421,7 @@ private:
         for (const auto& node : scene_.nodes) know(node.base);
         for (const auto& instance : scene_.instances) know(instance.base);
         std::vector<std::string> names;
+        names.reserve(count.size());
         for (const auto& [name, times] : count) names.push_back(name);
         for (const auto& wanted : parents_) {
             const auto add = [&](std::string problem, std::string remedy) {

@@ -146,7 +146,7 @@ public:
 
 private:
     template <class T>
-    void write(const std::vector<T>& samples, OIIO::TypeDesc type, int end) {
+    void write(const std::vector<T>& samples, const OIIO::TypeDesc& type, int end) {
         written_.bytes(samples.data(), samples.size() * sizeof(T));
         check(output_->write_scanlines(rows_, end, 0, type, samples.data()));
     }
