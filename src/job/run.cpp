@@ -158,6 +158,7 @@ private:
         behind_.wait();
         if (failures() > failedBefore) return log::warning("{}: not made, since frames failed", path.string());
         std::vector<std::filesystem::path> files;
+        files.reserve(frames.size());
         for (const int frame : frames) files.push_back(framePath(job.output, frame));
         progress_.begin(path.string());
         const auto begun = Clock::now();

@@ -140,6 +140,7 @@ std::string frameChangesText(const std::vector<FrameChange>& changes) {
 std::string frameChangesJson(const std::vector<FrameChange>& changes) {
     const auto list = [](const std::vector<std::string>& texts) {
         std::vector<std::string> quoted;
+        quoted.reserve(texts.size());
         for (const auto& one : texts) quoted.push_back(jsonText(one));
         return fmt::format("[{}]", fmt::join(quoted, ", "));
     };

@@ -279,6 +279,7 @@ void Renderer::tellProgress(const Frame& frame, const RenderOptions& options, in
 static std::vector<double> momentsOf(const RenderConfig& config, int frame) {
     const Sampling sampling{1, config.image.samples};
     std::vector<double> moments;
+    moments.reserve(static_cast<std::size_t>(sampling.samples()));
     for (int sample = 0; sample < sampling.samples(); ++sample)
         moments.push_back(frame + config.image.shutter * sampling.timeOf(sample));
     return moments;

@@ -35,7 +35,7 @@ struct Scale {
     }
     std::vector<double> ticks() const {
         std::vector<double> all;
-        for (double power = std::floor(low); power <= high; ++power)
+        for (int power = static_cast<int>(std::floor(low)); power <= high; ++power)
             for (const double step : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
                 const double value = step * std::pow(10.0, power);
                 if (std::log10(value) >= low && std::log10(value) <= high) all.push_back(value);

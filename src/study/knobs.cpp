@@ -144,7 +144,7 @@ StudyConfig::StudyConfig(
 Variant StudyConfig::at(const Settings& settings) const {
     Variant variant{document_, {}, {}};
     for (const auto& [key, value] : settings)
-        if (!key.starts_with("scene.")) applySetting(variant.document, key + "=" + value);
+        if (!key.starts_with("scene.")) applySetting(variant.document, fmt::format("{}={}", key, value));
     variant.config = parseRenderConfig(variant.document, path_, {{}, {}, meshFile_});
     variant.config.output.aovs = {&aov::beauty};
     variant.scene = changedScene(scene_, settings);

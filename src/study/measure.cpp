@@ -74,7 +74,8 @@ double rmseOf(const std::vector<float>& picture, const std::vector<float>& truth
 /// Settings without those that a slot's new table replaces.
 Settings with(Settings settings, const Settings& more) {
     for (const auto& [key, value] : more) {
-        std::erase_if(settings, [&](const auto& entry) { return entry.first.starts_with(key + "."); });
+        const std::string within = key + ".";
+        std::erase_if(settings, [&](const auto& entry) { return entry.first.starts_with(within); });
         settings[key] = value;
     }
     return settings;

@@ -343,8 +343,8 @@ QualityChoice chooseQuality(
     layerSettings(document, overrides.settings);
     if (!config.camera.empty()) applySetting(document, "camera=" + jsonText(config.camera));
     const StudyConfig study(std::move(document), config.file, loaded, config.meshFile);
-    const QualityChoice choice = config.quality.error > 0 ? chooseByError(session, study, config, frames)
-                                                          : chooseBySeconds(session, study, config, frames);
+    QualityChoice choice = config.quality.error > 0 ? chooseByError(session, study, config, frames)
+                                                    : chooseBySeconds(session, study, config, frames);
     replaceFile(kept, textOf(choice, key, study.lines(choice.settings)));
     log::info("quality: {}: {}", choice.promise, settingsText(choice.settings));
     return choice;
@@ -364,7 +364,7 @@ RenderConfig withQuality(Session& session, const RenderConfig& config, const Con
     const std::filesystem::path& output) {
     const QualityChoice choice = chooseQuality(session, config, overrides, qualityFile(output, config.file));
     ConfigOverrides all = overrides;
-    for (const auto& [key, value] : choice.settings) all.settings.push_back(key + "=" + value);
+    for (const auto& [key, value] : choice.settings) all.settings.push_back(fmt::format("{}={}", key, value));
     RenderConfig kept = readRenderConfig(config.file, all);
     kept.camera = config.camera;
     kept.promise = choice.promise;

@@ -87,7 +87,7 @@ private:
     std::string identityOf(const Settings& settings) const {
         std::string identity = study_.at(settings).config.hash;
         for (const auto& [key, value] : settings)
-            if (key.starts_with("scene.")) identity += " " + key + "=" + value;
+            if (key.starts_with("scene.")) identity += fmt::format(" {}={}", key, value);
         return identity;
     }
 
