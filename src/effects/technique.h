@@ -7,6 +7,7 @@
 // g++ 12 merges the accessors of members of one name in anonymous structs of one name, across files.
 #pragma once
 
+#include "drawing/drawing.h"
 #include "effects/slot.h"
 #include "graph/graph.h"
 #include "picture/aov.h"
@@ -67,6 +68,10 @@ public:
     const Background& background() const { return background_; }
     void setBackground(const Background& background) { background_ = background; }
 
+    /// Are lines that can be vectors left to the file?
+    bool keepsVectors() const { return keepsVectors_; }
+    void setKeepsVectors(bool keeps) { keepsVectors_ = keeps; }
+
     /// The shadow maps of all lights that cast one, as one image; nullopt when none does.
     std::optional<ResourceId> shadowMaps();
 
@@ -100,7 +105,7 @@ private:
     std::string slot_, technique_;
     int rate_ = kEverySample;
     int layer_ = 0;
-    bool usesFineRaster_ = false;
+    bool usesFineRaster_ = false, keepsVectors_ = false;
 };
 
 /// The uniform block `params` of a pass, from a constants struct and its table.
@@ -125,6 +130,9 @@ struct Technique {
     std::shared_ptr<void> (*makeParams)();
     std::shared_ptr<void> (*copyParams)(const void*);
     void (*build)(EffectBuilder&, const void* params, const Technique& self);
+    /// Of techniques whose lines can be vectors: the lines. They then build no pass where
+    /// EffectBuilder::keepsVectors().
+    LineLayer (*vectorLines)(const View&, const void* params) = nullptr;
 
     template <class P>
     Technique(std::string_view slot_, std::string_view name_, std::string_view doc_,
@@ -140,6 +148,15 @@ struct Technique {
             reinterpret_cast<void (*)(EffectBuilder&, const P&)>(self.buildFunction_)(
                 builder, *static_cast<const P*>(params));
         };
+    }
+
+    /// The same for a technique whose lines can be vectors.
+    template <class P>
+    Technique(std::string_view slot_, std::string_view name_, std::string_view doc_,
+        std::type_identity_t<Schema> fields, void (*build_)(EffectBuilder&, const P&),
+        LineLayer (*vectorLines_)(const View&, const void*), std::vector<Preset> presets_)
+        : Technique(slot_, name_, doc_, fields, build_, std::move(presets_)) {
+        vectorLines = vectorLines_;
     }
 
     Technique(const Technique&) = delete;

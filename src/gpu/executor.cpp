@@ -80,7 +80,7 @@ const gl::Texture& Executor::texture(const Plan& plan, ResourceId resource) cons
 }
 
 void Executor::run(
-    const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const HostScene* host, bool measure) {
+    const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const HostScenes& host, bool measure) {
     allocate(plan);
     const UniformBlock block = viewBlock(view);
     const gl::Buffer viewBuffer(block.bytes, "view");
@@ -167,7 +167,7 @@ void Executor::runCompute(const Graph& graph, const Plan& plan, const PlannedPas
 }
 
 void Executor::runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
-    const HostScene* host, std::span<const Mark> marks) {
+    const HostScenes& host, std::span<const Mark> marks) {
     const Pass& pass = graph.passes[static_cast<std::size_t>(planned.pass)];
     if (has(pass.needs, SceneData::marks) && marks.empty()) {
         for (std::size_t w = 0; w < pass.writes.size(); ++w)

@@ -28,9 +28,9 @@ public:
 
     /// Draws one sample of a frame: the passes that run in its plan. Samples must come in order. With `measure`, adds
     /// each pass's GPU time to milliseconds().
-    /// `host` is there when the plan needs SceneData::rays.
+    /// `host`: see HostScenes.
     void run(
-        const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const HostScene* host, bool measure);
+        const Graph& graph, const Plan& plan, const View& view, GpuScene& scene, const HostScenes& host, bool measure);
 
     /// A result of the last run that was asked for.
     const gl::Texture& texture(const Plan& plan, ResourceId resource) const;
@@ -56,7 +56,7 @@ private:
     void runScreen(
         const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, const gl::Program& program);
     void runHost(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view,
-        const HostScene* host, std::span<const Mark> marks);
+        const HostScenes& host, std::span<const Mark> marks);
     bool drawsScreen() const { return device_.report().isSoftware; }
     void runRaster(const Graph& graph, const Plan& plan, const PlannedPass& planned, const View& view, GpuScene& scene,
         const gl::Program& program);

@@ -134,6 +134,7 @@ private:
             {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"},
             {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"},
+            {SceneData::triangles, "triangles and their edges on the CPU"},
             {SceneData::marks, "the scene's own lines"}, {SceneData::coincidence, "which coincident faces are visible"},
             {SceneData::previous, "places in the frame before"}};
         std::vector<std::string> names;

@@ -50,7 +50,8 @@ enum class SceneData : unsigned {
     marks = 512,
     coincidence = 1024,
     previous = 2048,
-    shadows = 4096
+    shadows = 4096,
+    triangles = 8192
 };
 constexpr SceneData operator|(SceneData a, SceneData b) {
     return static_cast<SceneData>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -80,9 +81,16 @@ struct RasterView {
     int number = 0;          ///< the shader's uniform `rasterView`
 };
 
-/// The scene for host passes. The graph hands it on without knowing its type: rays/ray_scene.h is one.
+/// The scene for host passes. The graph hands it on without knowing its type: rays/ray_scene.h is one,
+/// drawing/scene_lines.h another.
 struct HostScene {
     virtual ~HostScene() = default;
+};
+
+/// What there is of it: each where the plan needs it, else null.
+struct HostScenes {
+    const HostScene* rays = nullptr;       ///< SceneData::rays: a RayScene
+    const HostScene* triangles = nullptr;  ///< SceneData::triangles: a SceneLines
 };
 
 /// An image in memory, as host passes see it: rows from the lower left, channels side by side.
@@ -95,8 +103,8 @@ struct HostImage {
 /// The input and output of a host pass. Images of `writes` that nobody reads are empty.
 struct HostWork {
     const View* view = nullptr;        ///< the sample's
-    const HostScene* scene = nullptr;  ///< where the pass needs SceneData::rays: a RayScene
-    std::span<const Mark> marks;       ///< where the pass needs SceneData::marks
+    HostScenes scene;
+    std::span<const Mark> marks;  ///< where the pass needs SceneData::marks
     std::vector<HostImage> reads, writes;
     PixelRect part;  ///< of the images: only this is wanted
 };

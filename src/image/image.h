@@ -41,11 +41,19 @@ struct Layer {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
+/// What a vector format draws over its image: lines, as drawing/ makes them. The room of images hands it on unseen.
+struct VectorContent {
+    virtual ~VectorContent() = default;
+};
+
 struct EncodeOptions {
-    int bits = 8;         ///< 8 or 16: PNG and TIFF
-    int compression = 1;  ///< zlib level of PNG: 1 fast … 9 small
-    int quality = 92;     ///< JPEG
-    double dpi = 0;       ///< pixels per inch, for printing; 0: not said
+    int bits = 8;            ///< 8 or 16: PNG and TIFF
+    int compression = 1;     ///< zlib level of PNG: 1 fast … 9 small
+    int quality = 92;        ///< JPEG
+    double dpi = 0;          ///< pixels per inch, for printing; 0: not said
+    double simplify = 0.02;  ///< SVG and PDF: millimetres by which a line may leave its place to have fewer points
+    bool underlay = true;    ///< SVG and PDF: does the picture lie below the lines?
+    std::shared_ptr<const VectorContent> vectors;  ///< of vector formats
 };
 
 /// Makes a file's bytes from a picture that comes band by band.
@@ -69,6 +77,7 @@ struct ImageFormat {
     struct Traits {
         bool isMultiLayer = false;  ///< holds all layers in one file, numbers as they are
         bool needsLibrary = false;  ///< the image library's module must be loaded for it
+        bool isVector = false;      ///< draws lines from the mesh as lines, over the rest as an image
         bool isOpaque = false;      ///< holds no alpha: transparent parts come out black
     };
     /// `layers` say what will come (their images' width and channels), `height` how many rows; one layer unless

@@ -17,7 +17,10 @@ std::vector<FrameFile> frameFiles(const std::filesystem::path& path, std::span<c
             !isMain && ((!aov->isColour() && aov->channelCount() != 1) || aov->isInteger() || aov == &aov::depth);
         std::filesystem::path to = path;
         if (!isMain)
-            to.replace_extension("." + std::string(aov->name) + (isExact ? ".exr" : path.extension().string()));
+            to.replace_extension("." + std::string(aov->name)
+                + (isExact                        ? ".exr"
+                        : format->traits.isVector ? ".png"
+                                                  : path.extension().string()));
         files.push_back({to, isExact});
     }
     return files;
@@ -50,6 +53,7 @@ static Layer withoutAlpha(const Layer& layer) {
 void FrameWriter::add(const RenderedFrame& band, const Metadata& metadata) {
     const auto put = [&](std::size_t file, std::span<const Layer> layers) {
         const auto& path = files_[file].isExact ? std::filesystem::path("exact.exr") : files_[file].path;
+        if (encoders_.size() == file) options_.vectors = band.drawing;
         if (encoders_.size() == file) encoders_.push_back(imageFormat(path)->open(layers, height_, metadata, options_));
         encoders_[file]->add(layers);
     };

@@ -53,6 +53,21 @@ std::filesystem::path outputPath(const RenderConfig& config, const std::string& 
     return text;
 }
 
+/// Throws Error where a vector file would hold nothing but an image.
+void checkVectors(const RenderConfig& config, bool isCropped) {
+    const auto& layers = config.in("edges");
+    if (std::none_of(
+            layers.begin(), layers.end(), [](const auto& choice) { return choice.technique->vectorLines != nullptr; }))
+        throw Error(ExitCode::usage, {config.file.string()}, "none of its lines can be drawn as vectors",
+            "add [[edges]] with technique = \"mesh_lines\", or end the path in .png");
+    if (std::find(config.output.aovs.begin(), config.output.aovs.end(), &aov::beauty) == config.output.aovs.end())
+        throw Error(ExitCode::usage, {config.file.string()}, "a vector file is the picture, which 'aovs' leaves out",
+            "add \"beauty\" to output.aovs");
+    if (isCropped)
+        throw Error(ExitCode::usage, {config.file.string()}, "a drawing cannot be cropped",
+            "leave --crop out; vector programs crop without loss");
+}
+
 Job readJob(const std::string& path, const RunOptions& options, const std::vector<Job>& before) {
     Job job{readRenderConfig(path, options.overrides), {}, {}};
     job.output = outputPath(job.config, options.output, options.configs.size() > 1);
@@ -61,6 +76,8 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
             throw Error(ExitCode::usage, {path},
                 fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()),
                 "put {config} into --output, or give each its own output.path");
+    job.config.output.isVector = imageFormat(job.output)->traits.isVector;
+    if (job.config.output.isVector) checkVectors(job.config, !options.crop.empty());
     if (job.config.image.transparent && imageFormat(job.output)->traits.isOpaque)
         log::warning(
             "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,

@@ -217,6 +217,7 @@ private:
             auto band = std::make_shared<RenderedFrame>();
             band->opaque = drawn.opaque;
             band->metadata = drawn.metadata;
+            band->drawing = drawn.drawing;
             for (auto& layer : drawn.layers) {
                 kept += layer.image.pixels.size() * sizeof(float);
                 band->layers.push_back(layer);

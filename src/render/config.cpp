@@ -111,6 +111,9 @@ constexpr Field kOutput[] = {
     field<&EncodeOptions::bits>("bits", {.min = 8, .max = 16}, "Bits per channel of PNG and TIFF: 8 or 16."),
     field<&EncodeOptions::compression>("compression", {.min = 0, .max = 9}, "Compression of PNG: 1 fast to 9 small."),
     field<&EncodeOptions::quality>("quality", {.min = 1, .max = 100}, "Quality of JPEG."),
+    field<&EncodeOptions::simplify>("simplify", {.unit = "millimetres", .min = 0, .max = 10},
+        "SVG and PDF: how far a line may leave its place to have fewer points."),
+    field<&EncodeOptions::underlay>("underlay", "SVG and PDF: does the picture lie below the lines?"),
 };
 
 /// The techniques that the value of a slot's key chooses.

@@ -42,6 +42,7 @@ struct OutputSettings {
     std::filesystem::path video;  ///< a film of all frames; empty: none
     std::vector<const Aov*> aovs{&aov::beauty};
     EncodeOptions encode;
+    bool isVector = false;  ///< lines from the mesh are drawn as lines, not into the picture
 };
 
 struct RenderConfig {

@@ -36,6 +36,7 @@ struct TilePipelines {
     Pipeline averaged;
     std::optional<Pipeline> centre;
     View averagedView, centreView;
+    SceneData forVectors = SceneData::none;  ///< what lines read that are drawn as vectors
 
     SceneData sceneData() const;
 };

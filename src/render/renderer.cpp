@@ -138,6 +138,9 @@ MeshNeeds meshNeeds(SceneData needs) {
         has(needs, SceneData::colors)};
 }
 
+/// Are meshes kept in memory for passes on the CPU?
+bool readsTriangles(SceneData needs) { return has(needs, SceneData::rays) || has(needs, SceneData::triangles); }
+
 Layer emptyLayer(const Aov& aov) {
     Layer layer{std::string(aov.name), {}, aov.isColour(), aov.isInteger(), {}};
     for (int c = 0; c < aov.channelCount(); ++c) layer.channels.emplace_back(aov.channels[static_cast<std::size_t>(c)]);
@@ -180,10 +183,10 @@ ContentKey Renderer::shownAs(const ContentKey& order) const {
 
 MadeMeshes Renderer::makeMissing(
     Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times) {
-    const bool traces = has(pipelines.sceneData(), SceneData::rays);
+    const bool keeps = readsTriangles(pipelines.sceneData());
     const auto isMissing = [&](const MeshOrder& order) {
         const ContentKey key = shownAs(order.key);
-        return !gpuScene_.holds(key) || (traces && !rayMeshes_.contains(key));
+        return !gpuScene_.holds(key) || (keeps && !hostMeshes_.contains(key));
     };
     const auto make = [&](const auto& isWanted) {
         return makeMeshes(frame.loaded, frame.scene, frame.request, orders, isWanted);
@@ -214,17 +217,14 @@ MadeMeshes Renderer::makeMissing(
     return made;
 }
 
-bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made) {
-    rayMeshes_.merge(made);
-    const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
-    std::erase_if(rayMeshes_, [&](const auto& entry) { return !wanted.contains(entry.first); });
+bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf) {
     const SceneInfo& info = frame.scene.info;
     KeyBuilder key;
     key.add(info.unit()).bytes(&info.bounds.lo, sizeof info.bounds.lo);
     std::vector<const TriMesh*> meshes;
     for (std::size_t i = 0; i < meshOf.size(); ++i) {
         const DrawInstance& instance = frame.scene.instances[i];
-        meshes.push_back(&rayMeshes_.at(meshOf[i]));
+        meshes.push_back(&hostMeshes_.at(meshOf[i]));
         key.add(meshOf[i].low).add(meshOf[i].high).bytes(&instance.worldFromMesh, sizeof instance.worldFromMesh);
         for (const auto material : instance.materials) {  // its images may cut holes
             const ContentKey& texture = frame.scene.textureKeys[material];
@@ -242,10 +242,24 @@ bool Renderer::bringRays(const Frame& frame, std::span<const ContentKey> meshOf,
     return true;
 }
 
+void Renderer::bringEdges(const Frame& frame, std::span<const ContentKey> meshOf) {
+    std::vector<const TriMesh*> meshes;
+    std::vector<const TriangleEdges*> edges;
+    meshes.reserve(meshOf.size());
+    edges.reserve(meshOf.size());
+    for (const ContentKey& key : meshOf) {
+        meshes.push_back(&hostMeshes_.at(key));
+        const auto [found, isNew] = edges_.try_emplace(key);
+        if (isNew) found->second = findTriangleEdges(*meshes.back());
+        edges.push_back(&found->second);
+    }
+    sceneLines_ = std::make_unique<SceneLines>(frame.scene, std::move(meshes), std::move(edges));
+}
+
 void Renderer::bringScene(Frame& frame, const TilePipelines& pipelines, std::vector<PartTime>& times) {
     const SceneData needs = pipelines.sceneData();
     gpuScene_.require(needs, frame.scene.lineRecords.size());
-    if (!has(needs, SceneData::rays)) rayMeshes_.clear();
+    if (!readsTriangles(needs)) hostMeshes_.clear();
     const MeshOrders orders = orderMeshes(frame.loaded, frame.scene, frame.request, meshNeeds(needs));
     MadeMeshes made = makeMissing(frame, pipelines, orders, times);
     shownAs_.merge(made.shownAs);
@@ -259,11 +273,16 @@ void Renderer::bringScene(Frame& frame, const TilePipelines& pipelines, std::vec
     Stopwatch watch(times);
     gpuScene_.update(frame.scene, meshOf, made.meshes);
     watch.lap("of which upload");
-    if (!has(needs, SceneData::rays)) {
-        rayScene_ = nullptr;
-        return;
-    }
-    if (bringRays(frame, meshOf, made.meshes)) watch.lap("of which ray tracing tree");
+    if (readsTriangles(needs)) hostMeshes_.merge(made.meshes);
+    const std::set<ContentKey> wanted(meshOf.begin(), meshOf.end());
+    std::erase_if(hostMeshes_, [&](const auto& entry) { return !wanted.contains(entry.first); });
+    std::erase_if(edges_, [&](const auto& entry) { return !hostMeshes_.contains(entry.first); });
+    if (!has(needs, SceneData::rays)) rayScene_ = nullptr;
+    if (has(needs, SceneData::rays) && bringRays(frame, meshOf)) watch.lap("of which ray tracing tree");
+    sceneLines_ = nullptr;
+    if (!has(needs, SceneData::triangles)) return edges_.clear();
+    bringEdges(frame, meshOf);
+    watch.lap("of which edges of meshes");
 }
 
 void Renderer::tellProgress(const Frame& frame, const RenderOptions& options, int sample, int samples) {
@@ -325,7 +344,7 @@ void Renderer::drawSamples(
             moveTo(frame, pipelines, frame.number + frame.config.image.shutter * pipelines.sampling.timeOf(sample));
         const View view = makeView(frame.scene.camera, frame.scene.info, request);
         setView(frame, view, request);
-        executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, rayScene_.get(), options.measure);
+        executor_.run(pipeline.graph, pipeline.ofSample(view), view, gpuScene_, hostScenes(), options.measure);
         tellProgress(frame, options, sample + 1, pipelines.sampling.samples());
     }
     if (pipelines.averagedView.isBlurred) moveTo(frame, pipelines, frame.number);
@@ -365,7 +384,7 @@ std::vector<Image> Renderer::drawTile(
         setView(frame, pipelines.centreView,
             viewRequest(config, pipelines.centreView.sampling, frame.number, pipelines.guard, options.guard, tile));
         executor_.run(
-            pipelines.centre->graph, pipelines.centre->plan, pipelines.centreView, gpuScene_, rayScene_.get(), false);
+            pipelines.centre->graph, pipelines.centre->plan, pipelines.centreView, gpuScene_, hostScenes(), false);
         collect(*pipelines.centre);
     }
     std::vector<Image> ordered;
@@ -458,6 +477,27 @@ void Renderer::drawBands(
     }
 }
 
+std::shared_ptr<const Drawing> Renderer::drawVectors(const Frame& frame, const View& view) const {
+    auto drawing = std::make_shared<Drawing>();
+    drawing->size = frame.config.image.size;
+    drawing->dpi = frame.config.image.dpi;
+    const SceneAt& scene = frame.scene;
+    drawing->records = scene.lineRecords;
+    for (const auto& material : scene.materials) drawing->materials.push_back(material.name);
+    for (const auto& instance : scene.instances) {
+        Drawing::Object object{std::string(instance.name), {}};
+        for (const auto& part : instance.parts) object.parts.push_back(part);
+        drawing->objects.push_back(std::move(object));
+    }
+    for (const auto& choice : frame.config.in("edges")) {
+        if (!choice.technique->vectorLines) continue;
+        LineLayer layer = choice.technique->vectorLines(view, choice.at(frame.number).get());
+        if (layer.look.opacity <= 0 || layer.look.widest() <= 0) continue;
+        drawing->layers.push_back({sceneLines_->lines(view, layer.request), std::move(layer.look)});
+    }
+    return drawing;
+}
+
 RenderedFrame Renderer::render(
     const RenderConfig& config, const LoadedScene& loaded, int number, const RenderOptions& options) {
     RenderedFrame result;
@@ -486,6 +526,7 @@ RenderedFrame Renderer::render(
         metadataOf(config, frame.scene, number, options.crop, device_.report(), shadersKey_, pipelines.averaged);
     for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
 
+    if (config.output.isVector) result.drawing = drawVectors(frame, pipelines.averagedView);
     drawBands(frame, pipelines, options, result);
     watch.lap("draw");
     return result;

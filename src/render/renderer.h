@@ -1,6 +1,8 @@
 // Draws one frame: plans, uploads the scene, runs every sample, reads back.
 #pragma once
 
+#include "drawing/drawing.h"
+#include "drawing/scene_lines.h"
 #include "gpu/executor.h"
 #include "image/image.h"
 #include "rays/ray_scene.h"
@@ -44,9 +46,10 @@ struct RenderedFrame {
     std::vector<Layer> layers;  ///< one per AOV of the config, in its order
     Metadata metadata;
     std::vector<PartTime> times;
-    bool opaque = false;          ///< the background covers everything
-    std::uint64_t nonFinite = 0;  ///< values that are NaN or infinite, except depth's background
-    View view;                    ///< of the first sample
+    bool opaque = false;                     ///< the background covers everything
+    std::uint64_t nonFinite = 0;             ///< values that are NaN or infinite, except depth's background
+    View view;                               ///< of the first sample
+    std::shared_ptr<const Drawing> drawing;  ///< where the config asks for vectors
 };
 
 struct FrameIdentity {
@@ -114,12 +117,17 @@ private:
     MadeMeshes makeMissing(
         Frame& frame, const TilePipelines& pipelines, const MeshOrders& orders, std::vector<PartTime>& times);
     /// Makes the tree anew if its input has changed; false if not.
-    bool bringRays(const Frame& frame, std::span<const ContentKey> meshOf, std::map<ContentKey, TriMesh>& made);
+    bool bringRays(const Frame& frame, std::span<const ContentKey> meshOf);
+    /// Finds the edges of meshes that are new.
+    void bringEdges(const Frame& frame, std::span<const ContentKey> meshOf);
+    HostScenes hostScenes() const { return {rayScene_.get(), sceneLines_.get()}; }
     ContentKey shownAs(const ContentKey& order) const;
 
     /// Throws Error where the shadow maps of all lights do not fit into a texture.
     void checkShadows(const SceneAt& scene, const std::string& file) const;
 
+    /// The lines that are drawn as vectors.
+    std::shared_ptr<const Drawing> drawVectors(const Frame& frame, const View& view) const;
     /// Draws the wanted part of the picture tile by tile, and gives it on in bands.
     void drawBands(Frame& frame, const TilePipelines& pipelines, const RenderOptions& options, RenderedFrame& result);
     /// Draws a tile: one image per AOV of the config, of the tile's size (and the guard band to be kept).
@@ -141,9 +149,11 @@ private:
     std::string shadersKey_;  ///< of a folder of shaders
     std::vector<PassTime> passTimes_;
     std::map<ContentKey, ContentKey> shownAs_;  ///< MadeMeshes::shownAs of all that was made
-    std::unique_ptr<RayScene> rayScene_;        ///< only where the plan traces rays, as are:
-    std::map<ContentKey, TriMesh> rayMeshes_;   ///< its input
+    std::map<ContentKey, TriMesh> hostMeshes_;  ///< only where the plan has passes on the CPU that read triangles
+    std::unique_ptr<RayScene> rayScene_;        ///< only where it traces rays
     ContentKey rayKey_;                         ///< of all its input
+    std::unique_ptr<SceneLines> sceneLines_;    ///< only where it draws lines from the mesh, as are:
+    std::map<ContentKey, TriangleEdges> edges_;
     std::future<MadeMeshes> awaited_;
     std::chrono::steady_clock::time_point toldAt_;  ///< when RenderOptions::onProgress was told last
 };

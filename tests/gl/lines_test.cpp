@@ -194,50 +194,68 @@ std::vector<LineScene> lineScenes() {
     return scenes;
 }
 
+/// The scene's boxes as an OBJ, an object each.
+std::string objOf(const LineScene& scene) {
+    std::string obj;
+    int vertex = 0;
+    for (const auto& box : scene.boxes) {
+        obj += fmt::format("o box{}\n", vertex / 8);
+        for (int i = 0; i < 8; ++i)
+            obj += fmt::format(
+                "v {} {} {}\n", i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z);
+        for (const auto& q :
+            {std::array{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}})
+            obj += fmt::format("f {} {} {} {}\n", vertex + q[0], vertex + q[1], vertex + q[2], vertex + q[3]);
+        vertex += 8;
+    }
+    return obj;
+}
+
+std::vector<float> inkOf(const LineScene& scene, const std::string& technique, int samples) {
+    const Eye& eye = scene.eye;
+    const std::string lens =
+        eye.fov > 0 ? fmt::format("fov = {}", eye.fov) : fmt::format("orthographic_height = {}", eye.height);
+    const Picture p = draw(makeConfig(fmt::format("[image]\nsize = [{}, {}]\nsamples = {}\n[[edges]]\ntechnique = "
+                                                  "'{}'\nwidth = '1px'\n[output]\naovs = ['edges']\n",
+                               kWidth, kHeight, samples, technique)),
+        makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n" + cameraToml(eye.position, eye.lookAt, lens),
+            {{"m.obj", objOf(scene)}}));
+    std::vector<float> ink;
+    for (std::size_t i = 3; i < p.aov("edges").pixels.size(); i += 4) ink.push_back(p.aov("edges").pixels[i]);
+    return ink;
+}
+
+/// Leaves the scene for another renderer, and measures the picture that it has put there.
+void compareWithOther(const LineScene& scene, const std::vector<glm::dvec2>& edges, const char* folder) {
+    const Eye& eye = scene.eye;
+    const std::string base = fmt::format("{}/{}", folder, scene.name);
+    std::ofstream(base + ".obj") << objOf(scene);
+    std::ofstream(base + ".camera") << fmt::format("{} {} {} {} {} {} {} {} {} {}\n", eye.position.x, eye.position.y,
+        eye.position.z, eye.lookAt.x, eye.lookAt.y, eye.lookAt.z, eye.fov, eye.height, kWidth, kHeight);
+    if (!std::ifstream(base + ".other.png")) return;
+    const Image other = readImage(base + ".other.png");
+    std::vector<float> ink(other.pixels.size() / static_cast<std::size_t>(other.channels));
+    for (std::size_t i = 0; i < ink.size(); ++i)
+        ink[i] = 1 - other.pixels[i * static_cast<std::size_t>(other.channels)];
+    const Score theirs = measure(edges, ink, 1);
+    fmt::print("{:<24}{:>9.2f}%{:>9.2f}%\n", "  the other renderer", 100 * theirs.drawn, 100 * theirs.false_);
+}
+
 TEST(Lines, areWhereTheEdgesAreAndNowhereElse) {
     const char* folder = std::getenv("LIMN_LINE_SCENES");
     fmt::print("{:<24}{:>10}{:>10}\n", "", "drawn", "false");
     for (const auto& scene : lineScenes()) {
-        std::string obj;
-        int vertex = 0;
-        for (const auto& box : scene.boxes) {
-            obj += fmt::format("o box{}\n", vertex / 8);
-            for (int i = 0; i < 8; ++i)
-                obj += fmt::format("v {} {} {}\n", i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
-                    i & 4 ? box.hi.z : box.lo.z);
-            for (const auto& q :
-                {std::array{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}})
-                obj += fmt::format("f {} {} {} {}\n", vertex + q[0], vertex + q[1], vertex + q[2], vertex + q[3]);
-            vertex += 8;
-        }
-        const Eye& eye = scene.eye;
-        const std::string lens =
-            eye.fov > 0 ? fmt::format("fov = {}", eye.fov) : fmt::format("orthographic_height = {}", eye.height);
-        const auto edges = trueEdges(scene.boxes, Projection(eye));
-        const Picture p = draw(makeConfig(fmt::format("[image]\nsize = [{}, {}]\nsamples = 4\n[[edges]]\ntechnique = "
-                                                      "'depth_normal'\nwidth = '1px'\n[output]\naovs = ['edges']\n",
-                                   kWidth, kHeight)),
-            makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n" + cameraToml(eye.position, eye.lookAt, lens),
-                {{"m.obj", obj}}));
-        std::vector<float> ink;
-        for (std::size_t i = 3; i < p.aov("edges").pixels.size(); i += 4) ink.push_back(p.aov("edges").pixels[i]);
-        const Score score = measure(edges, ink, 1);
-        fmt::print("{:<24}{:>9.2f}%{:>9.2f}%\n", scene.name, 100 * score.drawn, 100 * score.false_);
+        const auto edges = trueEdges(scene.boxes, Projection(scene.eye));
         EXPECT_GT(edges.size(), 4000u) << scene.name;
-        EXPECT_GE(score.drawn, 0.99) << scene.name;
-        EXPECT_LE(score.false_, 0.005) << scene.name;
-        if (!folder) continue;
-        const std::string base = fmt::format("{}/{}", folder, scene.name);
-        std::ofstream(base + ".obj") << obj;
-        std::ofstream(base + ".camera") << fmt::format("{} {} {} {} {} {} {} {} {} {}\n", eye.position.x,
-            eye.position.y, eye.position.z, eye.lookAt.x, eye.lookAt.y, eye.lookAt.z, eye.fov, eye.height, kWidth,
-            kHeight);
-        if (!std::ifstream(base + ".other.png")) continue;
-        const Image other = readImage(base + ".other.png");
-        for (std::size_t i = 0; i < ink.size(); ++i)
-            ink[i] = 1 - other.pixels[i * static_cast<std::size_t>(other.channels)];
-        const Score theirs = measure(edges, ink, 1);
-        fmt::print("{:<24}{:>9.2f}%{:>9.2f}%\n", "  the other renderer", 100 * theirs.drawn, 100 * theirs.false_);
+        const Score image = measure(edges, inkOf(scene, "depth_normal", 4), 1);
+        fmt::print("{:<24}{:>9.2f}%{:>9.2f}%\n", scene.name, 100 * image.drawn, 100 * image.false_);
+        EXPECT_GE(image.drawn, 0.99) << scene.name;
+        EXPECT_LE(image.false_, 0.005) << scene.name;
+        const Score mesh = measure(edges, inkOf(scene, "mesh_lines", 1), 1);
+        fmt::print("{:<24}{:>9.2f}%{:>9.2f}%\n", "  from the mesh", 100 * mesh.drawn, 100 * mesh.false_);
+        EXPECT_GE(mesh.drawn, 0.999) << scene.name;
+        EXPECT_LE(mesh.false_, 0.001) << scene.name;
+        if (folder) compareWithOther(scene, edges, folder);
     }
 }
 

@@ -330,6 +330,34 @@ void depthNormal() {
     expectNear(fading.constant("line_places", "fadeScale"), 1 / (4 * kRadius));
 }
 
+void meshLines() {
+    TechniqueChoice choice = defaultChoice("edges", "mesh_lines");
+    applySettings(choice,
+        "width = '3px', contours = 2, creases = 0.5, materials = 0, crease_angle = 60, crease_color = [1, 0, 0.5], "
+        "hidden = 4, hidden_weight = 0.25, hidden_dash = '25.4mm', hidden_gap = '10%', fade = 0.5, taper = 0.25, "
+        "fade_from = '10%'");
+    const SceneAt at = scene();
+    const RenderConfig config = parseRenderConfig(
+        parseDocument("scene = '/dev/null'\n[image]\nsize = [400, 300]\ndpi = 100\n", "test"), "test");
+    const View view = makeView(at.camera, at.info, viewRequest(config, {}, 1, 0, 0));
+    const auto [request, look] = choice.technique->vectorLines(view, choice.at(1).get());
+    const auto of = [](const auto& values, MeshLineSource source) { return values[static_cast<std::size_t>(source)]; };
+    expectNear(request.creaseCosine, 0.5);
+    EXPECT_EQ(request.deepest, 4);
+    EXPECT_TRUE(of(request.wanted, MeshLineSource::creases));
+    EXPECT_FALSE(of(request.wanted, MeshLineSource::materials));
+    expectNear(of(look.visible, MeshLineSource::contours).width, 6);
+    expectNear(of(look.visible, MeshLineSource::creases).width, 1.5);
+    expectNear(static_cast<double>(of(look.visible, MeshLineSource::creases).color.b), 0.5);
+    expectNear(of(look.hidden, MeshLineSource::contours).width, 1.5);
+    expectNear(of(look.hidden, MeshLineSource::contours).dashes.dash, 100);
+    expectNear(of(look.hidden, MeshLineSource::contours).dashes.gap, 30);
+    expectNear(of(look.visible, MeshLineSource::contours).dashes.dash, 0);
+    expectNear(look.fade, 0.5);
+    expectNear(look.taper, 0.25);
+    expectNear(look.fadeFrom, kRadius);
+}
+
 void laplacian() {
     const Built b("edges = { technique = 'laplacian', ids = [2], materials = ['steel'] }\n");
     // Bit n of the words stands for number n: object 2, and material 3, which counts from 1.
@@ -375,8 +403,9 @@ const std::map<std::string, std::function<void()>> kTests{{"ao hbao", hbao}, {"a
     {"filter cross_bilateral", crossBilateral}, {"filter plane_aware", planeAware},
     {"filter smart_gaussian", smartGaussian}, {"shading toon", toon}, {"shading blinn_phong", blinnPhong},
     {"shading lambert", lambert}, {"shading clay", clay}, {"shading flat", flat}, {"shading paper", paper},
-    {"edges depth_normal", depthNormal}, {"edges laplacian", laplacian}, {"edges depth_tangent", depthTangentLines},
-    {"composite over", over}, {"geometry exact", exact}, {"geometry fast", fast}};
+    {"edges depth_normal", depthNormal}, {"edges mesh_lines", meshLines}, {"edges laplacian", laplacian},
+    {"edges depth_tangent", depthTangentLines}, {"composite over", over}, {"geometry exact", exact},
+    {"geometry fast", fast}};
 
 class Derive : public testing::TestWithParam<const Technique*> {};
 INSTANTIATE_TEST_SUITE_P(Every, Derive, testing::ValuesIn(allTechniques()),

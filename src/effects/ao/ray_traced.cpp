@@ -37,7 +37,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.needs = SceneData::rays;
     const OcclusionQuery query{graph.view().normalized(params.radius), params.falloff, params.rays};
     pass.work = [query](HostWork& work) {
-        traceAmbientOcclusion(static_cast<const RayScene&>(*work.scene), *work.view,
+        traceAmbientOcclusion(static_cast<const RayScene&>(*work.scene.rays), *work.view,
             {work.reads[0].values, work.reads[1].values}, query, work.part, work.writes[0].values,
             work.writes[1].values);
     };

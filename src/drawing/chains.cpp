@@ -1,0 +1,196 @@
+#include "drawing/chains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace limn {
+namespace {
+
+constexpr std::uint32_t kNothing = ~std::uint32_t{0};
+
+/// What pieces of one line have in common.
+auto lookOf(const Candidate& candidate) {
+    return std::tuple(candidate.source, candidate.record, candidate.instance, candidate.part, candidate.material);
+}
+
+/// An end of a piece: 2 · piece + 0 or 1.
+using PieceEnd = std::uint32_t;
+
+/// Which end of a piece joins which.
+class Links {
+public:
+    Links(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates)
+        : pieces_(pieces), candidates_(candidates), linked_(2 * pieces.size(), kNothing) {
+        std::vector<PieceEnd> ends(2 * pieces.size());
+        for (PieceEnd i = 0; i < ends.size(); ++i) ends[i] = i;
+        const auto keyOf = [&](PieceEnd end) { return std::tuple(nodeOf(end), look(end)); };
+        std::sort(ends.begin(), ends.end(),
+            [&](PieceEnd a, PieceEnd b) { return keyOf(a) != keyOf(b) ? keyOf(a) < keyOf(b) : a < b; });
+        for (std::size_t i = 0; i < ends.size();) {
+            std::size_t after = i;
+            while (after < ends.size() && keyOf(ends[after]) == keyOf(ends[i])) ++after;
+            if (nodeOf(ends[i]) != kNoNode) join(std::span(ends).subspan(i, after - i));
+            i = after;
+        }
+    }
+
+    PieceEnd operator[](PieceEnd end) const { return linked_[end]; }
+
+private:
+    std::uint64_t nodeOf(PieceEnd end) const { return pieces_[end / 2].node[end % 2]; }
+    std::tuple<MeshLineSource, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> look(PieceEnd end) const {
+        return lookOf(candidates_[pieces_[end / 2].candidate]);
+    }
+    /// From the end into the piece.
+    glm::dvec2 wayFrom(PieceEnd end) const {
+        const auto& piece = pieces_[end / 2];
+        const glm::dvec2 way = piece.end[1 - end % 2].place - piece.end[end % 2].place;
+        const double length = glm::length(way);
+        return length > 0 ? way / length : way;
+    }
+
+    /// Joins the ends at one node, two and two, the straightest first.
+    void join(std::span<const PieceEnd> ends) {
+        if (ends.size() == 2) {
+            if (ends[0] / 2 != ends[1] / 2) link(ends[0], ends[1]);
+            return;
+        }
+        constexpr std::size_t kMost = 32;  // beyond that nobody could tell
+        if (ends.size() < 2 || ends.size() > kMost) return;
+        std::vector<std::tuple<double, PieceEnd, PieceEnd>> pairs;
+        for (std::size_t i = 0; i < ends.size(); ++i)
+            for (std::size_t j = i + 1; j < ends.size(); ++j)
+                pairs.emplace_back(glm::dot(wayFrom(ends[i]), wayFrom(ends[j])), ends[i], ends[j]);
+        std::sort(pairs.begin(), pairs.end());
+        for (const auto& [cosine, a, b] : pairs)
+            if (linked_[a] == kNothing && linked_[b] == kNothing && a / 2 != b / 2) link(a, b);
+    }
+
+    void link(PieceEnd a, PieceEnd b) {
+        linked_[a] = b;
+        linked_[b] = a;
+    }
+
+    const std::vector<LinePiece>& pieces_;
+    std::span<const Candidate> candidates_;
+    std::vector<PieceEnd> linked_;
+};
+
+/// A part of a chain behind equally many faces, or equally hidden.
+struct Span {
+    int behind = 0;
+    std::vector<LinePoint> points;
+    double length = 0;
+
+    void add(const LinePoint& point) {
+        if (!points.empty()) length += glm::distance(points.back().place, point.place);
+        points.push_back(point);
+    }
+};
+
+/// Joins neighbours that are hidden alike.
+void joinAlike(std::vector<Span>& spans, int deepest) {
+    const auto kind = [&](const Span& span) { return span.behind == 0 ? 0 : span.behind <= deepest ? 1 : 2; };
+    std::vector<Span> joined;
+    for (auto& span : spans) {
+        if (joined.empty() || kind(joined.back()) != kind(span)) {
+            joined.push_back(std::move(span));
+            continue;
+        }
+        Span& last = joined.back();
+        last.behind = std::min(last.behind, span.behind);
+        last.length += span.length;
+        last.points.insert(last.points.end(), span.points.begin() + 1, span.points.end());
+    }
+    spans = std::move(joined);
+}
+
+/// Hides what is too short between its neighbours to be seen, and shows what is hidden so briefly.
+void clean(std::vector<Span>& spans, int deepest, bool isClosed) {
+    joinAlike(spans, deepest);
+    for (const bool hides : {false, true}) {
+        const std::size_t count = spans.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool isInner = isClosed ? count > 1 : i > 0 && i + 1 < count;
+            if (!isInner || spans[i].length >= kShortestPart || (spans[i].behind == 0) != hides) continue;
+            const Span &before = spans[(i + count - 1) % count], &after = spans[(i + 1) % count];
+            if ((before.behind == 0) == hides || (after.behind == 0) == hides) continue;
+            spans[i].behind = before.behind;
+        }
+        joinAlike(spans, deepest);
+    }
+}
+
+class Chainer {
+public:
+    Chainer(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest)
+        : pieces_(pieces),
+          candidates_(candidates),
+          deepest_(deepest),
+          links_(pieces, candidates),
+          isTaken_(pieces.size()) {}
+
+    std::vector<DrawnLine> all() {
+        for (PieceEnd end = 0; end < 2 * pieces_.size(); ++end)
+            if (!isTaken_[end / 2] && links_[end] == kNothing) walk(end, false);
+        for (PieceEnd end = 0; end < 2 * pieces_.size(); end += 2)
+            if (!isTaken_[end / 2]) walk(end, true);
+        return std::move(lines_);
+    }
+
+private:
+    void walk(PieceEnd start, bool isClosed) {
+        std::vector<Span> spans;
+        PieceEnd end = start;
+        do {
+            const LinePiece& piece = pieces_[end / 2];
+            isTaken_[end / 2] = true;
+            if (spans.empty() || spans.back().behind != piece.behind) {
+                spans.push_back({piece.behind, {}, 0});
+                spans.back().add(piece.end[end % 2]);
+            }
+            spans.back().add(piece.end[1 - end % 2]);
+            end = links_[end ^ 1u];
+        } while (end != kNothing && end != start);
+        clean(spans, deepest_, isClosed);
+        if (isClosed && spans.size() > 1) turn(spans);
+        for (auto& span : spans)
+            if (span.behind <= deepest_) put(std::move(span), start, isClosed && spans.size() == 1);
+    }
+
+    /// Lets a closed chain begin where its look changes.
+    void turn(std::vector<Span>& spans) const {
+        const auto kind = [&](const Span& span) { return span.behind == 0 ? 0 : span.behind <= deepest_ ? 1 : 2; };
+        if (kind(spans.front()) != kind(spans.back())) return;
+        Span& last = spans.back();
+        Span& first = spans.front();
+        last.points.insert(last.points.end(), first.points.begin() + 1, first.points.end());
+        last.length += first.length;
+        last.behind = std::min(first.behind, last.behind);
+        spans.erase(spans.begin());
+    }
+
+    void put(Span&& span, PieceEnd start, bool isClosed) {
+        const Candidate& candidate = candidates_[pieces_[start / 2].candidate];
+        DrawnLine line{candidate.source, candidate.record, candidate.instance, candidate.part, candidate.material,
+            span.behind, isClosed, std::move(span.points)};
+        if (isClosed) line.points.pop_back();
+        lines_.push_back(std::move(line));
+    }
+
+    const std::vector<LinePiece>& pieces_;
+    std::span<const Candidate> candidates_;
+    int deepest_;
+    Links links_;
+    std::vector<char> isTaken_;
+    std::vector<DrawnLine> lines_;
+};
+
+}  // namespace
+
+std::vector<DrawnLine> chain(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest) {
+    return Chainer(pieces, candidates, deepest).all();
+}
+
+}  // namespace limn

@@ -1,0 +1,32 @@
+// Pieces of lines become polylines.
+#pragma once
+
+#include "drawing/candidates.h"
+
+namespace limn {
+
+/// Where a piece ends alone.
+inline constexpr std::uint64_t kNoNode = 0;
+
+/// A straight piece in the picture, behind the same number of faces all along.
+struct LinePiece {
+    std::array<LinePoint, 2> end;
+    std::array<std::uint64_t, 2> node{kNoNode, kNoNode};  ///< pieces are neighbours where they share one
+    std::uint32_t candidate = 0;                          ///< index
+    int behind = 0;
+};
+
+/// Shorter gaps are closed, and shorter visible parts between hidden ones left out, in pixels: nobody sees them, and a
+/// mesh's small folds beside its contour make many.
+inline constexpr double kShortestPart = 0.25;
+
+/// Removes the parts of pieces that lie on others in the picture, so that no line is drawn twice: hidden ones under
+/// visible ones, then those of the later source, then those that come later. Pieces behind more
+/// than `deepest` faces are left as they are.
+void removeOverlaps(std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest);
+
+/// Joins pieces of one source, object, material and record; at junctions those that go on straightest. A closed line
+/// begins anywhere. In the order of the pieces.
+std::vector<DrawnLine> chain(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest);
+
+}  // namespace limn

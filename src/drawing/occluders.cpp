@@ -1,0 +1,379 @@
+#include "drawing/occluders.h"
+
+#include "base/error.h"
+#include "mesh/coincident.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace limn {
+namespace {
+
+/// Sheets closer than this are one, in parts of the scene's size: what two files, or a file and a rounded transform,
+/// say about one plane.
+constexpr double kTouching = kCoincidentDistance;
+/// The same within a connected mesh, whose floats agree: a rounding of its coordinates.
+constexpr double kTouchingInMesh = 2e-7;
+/// And of a triangle that shares a vertex with the line, in parts of the line's length: a rounding of an angle.
+constexpr double kTouchingAtVertex = 1e-6;
+/// Boxes in the picture are wider than their triangles by this, in parts of the largest coordinate: the rounding of
+/// coordinates to floats, and of the tree's own arithmetic.
+constexpr double kBoxSlack = 1e-6;
+
+/// What the tree's leaves are.
+struct Triangle {
+    std::uint32_t number;  ///< among all
+    std::uint32_t mesh;    ///< index into ViewedScene::meshes()
+};
+
+/// An interval of a line's parameter.
+struct Interval {
+    double from, to;
+    bool isEmpty() const { return !(from < to); }
+    /// Keeps the part in which a linear function, by its values at both ends, is above 0.
+    void keepAbove(double atStart, double atEnd) {
+        if (atStart > 0 && atEnd > 0) return;
+        if (atStart <= 0 && atEnd <= 0) {
+            to = from;
+            return;
+        }
+        const double zero = atStart / (atStart - atEnd);
+        if (atStart > 0)
+            to = std::min(to, zero);
+        else
+            from = std::max(from, zero);
+    }
+};
+
+/// A line as triangles are compared with it.
+struct Query {
+    const Candidate& line;
+    int deepest;    ///< faces before it that matter
+    Interval part;  ///< in the picture
+    double length;  ///< in space
+    std::array<glm::dvec3, 2> end;
+    std::vector<std::pair<double, int>> steps;  ///< where the number of faces before it changes, and by how much
+    std::vector<Interval> continued;            ///< where a border is none
+    double shift = 0;  ///< of a border: on which side in the picture its own triangle is seen, −1 or 1
+    glm::dvec3 faceNormal{0};
+};
+
+/// A box in the picture, and in what grows with depth and is linear along lines there.
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
+struct Context : RTCIntersectContext {
+    const void* tree;
+    Query* query;
+};
+
+}  // namespace
+
+struct Occluders::Tree {
+    const ViewedScene& scene;
+    glm::dvec2 low, high;  ///< the picture and its margin, in pixels
+    glm::dvec2 middle;     ///< subtracted from places, to keep floats small
+    double size;           ///< of the scene, normalized units
+    double nearest = 1;    ///< depth of what is nearest to the eye
+    double farthest = 0;   ///< no levelOf() is beyond
+    std::vector<Triangle> triangles;
+    RTCDevice device = nullptr;
+    RTCScene boxes = nullptr;
+
+    Tree(const ViewedScene& scene_, glm::ivec2 imageSize, double margin)
+        : scene(scene_),
+          low(-margin),
+          high(glm::dvec2(imageSize) + margin),
+          middle(0.5 * glm::dvec2(imageSize)),
+          size(scene_.scene().info.diagonal() * scene_.scene().info.unit()) {
+        measureDepths();
+        for (std::uint32_t i = 0; i < scene.meshes().size(); ++i) {
+            const ViewedMesh& placed = scene.meshes()[i];
+            for (std::uint32_t t = 0; t < placed.mesh->triangleCount(); ++t)
+                if (const Triangle triangle{placed.firstTriangle + t, i}; boxOf(triangle))
+                    triangles.push_back(triangle);
+        }
+        build();
+    }
+    ~Tree() {
+        if (boxes) rtcReleaseScene(boxes);
+        if (device) rtcReleaseDevice(device);
+    }
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+
+    /// Depth as the tree knows it: it grows with depth, and is linear along lines in the picture.
+    double levelOf(double depth) const { return scene.projector().isParallel ? depth : -nearest / depth; }
+    glm::dvec3 placeOf(const glm::dvec3& p) const { return {scene.projector().place(p), levelOf(-p.z)}; }
+
+    /// The box around a triangle in the picture, from its nearest point on; nullopt where it is not seen.
+    std::optional<Box> boxOf(const Triangle& triangle) const {
+        const ViewedMesh& placed = scene.meshes()[triangle.mesh];
+        const auto corner = scene.corners(placed, triangle.number - placed.firstTriangle);
+        const Projector& projector = scene.projector();
+        Box box;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 &p = corner[i].at, &q = corner[(i + 1) % 3].at;
+            const bool isSeen = projector.isParallel || -p.z > projector.nearest,
+                       isNextSeen = projector.isParallel || -q.z > projector.nearest;
+            if (isSeen) box.add(placeOf(p));
+            if (isSeen != isNextSeen)  // from the eye's plane on
+                box.add(placeOf(p + (q - p) * ((-projector.nearest - p.z) / (q.z - p.z))));
+        }
+        if (!(box.low.x <= high.x && box.low.y <= high.y && box.high.x >= low.x && box.high.y >= low.y))
+            return std::nullopt;
+        box.low = glm::max(box.low, glm::dvec3(low, box.low.z));
+        box.high = glm::min(box.high, glm::dvec3(high, box.high.z));
+        return box;
+    }
+
+    void measureDepths() {
+        Bounds depths;
+        for (std::uint32_t v = 0; v < scene.vertexCount(); ++v) depths.add(glm::dvec3(-scene.at(v).z));
+        nearest = std::max(depths.lo.z, scene.projector().nearest);
+        farthest = scene.projector().isParallel ? depths.hi.z : 0;
+    }
+
+    void build();
+    Interval partInPicture(const Candidate& line) const;
+    /// True where nothing else needs to be compared.
+    bool compare(Query& query, const Triangle& triangle) const;
+    double touchingOf(const Query& query, const ViewedMesh& placed, const std::array<ViewedVertex, 3>& corner,
+        std::size_t end, bool sharesVertex) const;
+    void findContinued(Query& query, const std::array<ViewedVertex, 3>& corner, const glm::dvec3& normal, double sign,
+        const std::array<double, 2>& height) const;
+};
+
+namespace {
+
+void boundsOfTriangle(const RTCBoundsFunctionArguments* args) {
+    const auto& tree = *static_cast<const Occluders::Tree*>(args->geometryUserPtr);
+    const auto box = tree.boxOf(tree.triangles[args->primID]);
+    const double slack = kBoxSlack * std::max(glm::length(tree.high), 1.0);
+    const glm::dvec2 lower = glm::dvec2(box->low) - tree.middle - slack,
+                     upper = glm::dvec2(box->high) - tree.middle + slack;
+    // What lies behind the triangle may be hidden by it, however far.
+    *args->bounds_o = {static_cast<float>(lower.x), static_cast<float>(lower.y),
+        static_cast<float>(box->low.z - kBoxSlack), 0, static_cast<float>(upper.x), static_cast<float>(upper.y),
+        static_cast<float>(tree.farthest + kBoxSlack), 0};
+}
+
+void meetTriangle(const RTCOccludedFunctionNArguments* args) {
+    if (args->valid[0] == 0) return;
+    const auto& context = *static_cast<const Context*>(args->context);
+    const auto& tree = *static_cast<const Occluders::Tree*>(context.tree);
+    if (tree.compare(*context.query, tree.triangles[args->primID]))
+        RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
+
+void Occluders::Tree::build() {
+    device = rtcNewDevice(nullptr);
+    boxes = rtcNewScene(device);
+    rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, boundsOfTriangle, nullptr);
+    rtcSetGeometryOccludedFunction(geometry, meetTriangle);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(boxes, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(boxes);
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the tree of what hides lines",
+            "use coarser meshes, or lines that are found in the picture: technique = \"depth_normal\"");
+    if (error != RTC_ERROR_NONE)
+        throw Error(ExitCode::internal, {}, "Embree failed with code " + std::to_string(static_cast<int>(error)),
+            "please report this");
+}
+
+/// The part of a line before the eye and within the picture's margin.
+Interval Occluders::Tree::partInPicture(const Candidate& line) const {
+    const Projector& projector = scene.projector();
+    Interval part{0, 1};
+    const auto keep = [&](const auto& function) { part.keepAbove(function(line.end[0]), function(line.end[1])); };
+    if (!projector.isParallel) keep([&](const glm::dvec3& p) { return -p.z - projector.nearest; });
+    for (int axis = 0; axis < 2; ++axis) {
+        const double from = projector.rayOffset[axis] + projector.rayScale[axis] * low[axis],
+                     to = projector.rayOffset[axis] + projector.rayScale[axis] * high[axis];
+        const auto depth = [&](const glm::dvec3& p) { return projector.isParallel ? 1 : -p.z; };
+        keep([&](const glm::dvec3& p) { return p[axis] - from * depth(p); });
+        keep([&](const glm::dvec3& p) { return to * depth(p) - p[axis]; });
+    }
+    return part;
+}
+
+/// How far a triangle's plane may lie before the line without hiding it, at one end.
+double Occluders::Tree::touchingOf(const Query& query, const ViewedMesh& placed,
+    const std::array<ViewedVertex, 3>& corner, std::size_t end, bool sharesVertex) const {
+    for (const auto& one : corner)
+        if (one.number == query.line.vertex[end]) return 0;
+    if (sharesVertex) return kTouchingAtVertex * query.length;
+    const std::uint32_t component =
+        placed.firstVertex + placed.edges->componentOf[corner[0].number - placed.firstVertex];
+    return (component == query.line.component ? kTouchingInMesh : kTouching) * size;
+}
+
+/// The function of three points that is above 0 where `x` is seen on the inner side of the edge from p to q. Both
+/// triangles on an edge compute the same number, but for its sign.
+static double innerSide(const Projector& projector, const ViewedVertex& p, const ViewedVertex& q, const glm::dvec3& x) {
+    return p.number < q.number ? projector.side(p.at, q.at, x) : -projector.side(q.at, p.at, x);
+}
+
+bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
+    const std::uint32_t number = triangle.number;
+    const Candidate& line = query.line;
+    if (number == line.within[0] || number == line.within[1]) return false;
+    const ViewedMesh& placed = scene.meshes()[triangle.mesh];
+    const auto corner = scene.corners(placed, number - placed.firstTriangle);
+    const Projector& projector = scene.projector();
+    std::array<bool, 2> isAtCorner{false, false};
+    for (std::size_t e = 0; e < 2; ++e)
+        for (const auto& one : corner) isAtCorner[e] = isAtCorner[e] || one.number == line.vertex[e];
+    if (isAtCorner[0] && isAtCorner[1]) return false;  // on the line's own edge
+    // Its plane, upward to the eye.
+    glm::dvec3 normal = glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
+    const double area = glm::length(normal);
+    if (!(area > 0)) return false;
+    normal /= area;
+    const double facing = projector.isParallel ? normal.z : -glm::dot(normal, corner[0].at);
+    if (facing == 0) return false;
+    const double sign = facing > 0 ? 1 : -1;
+    normal *= sign;
+    std::array<double, 2> height, below;
+    for (std::size_t e = 0; e < 2; ++e) {
+        height[e] = isAtCorner[e] ? 0 : glm::dot(normal, query.end[e] - corner[0].at);
+        below[e] = -height[e] - touchingOf(query, placed, corner, e, isAtCorner[0] || isAtCorner[1]);
+    }
+    if (line.face != kNoVertex && number != line.face) findContinued(query, corner, normal, sign, height);
+    Interval hidden{0, 1};
+    hidden.keepAbove(below[0], below[1]);
+    for (std::size_t i = 0; i < 3 && !hidden.isEmpty(); ++i) {
+        const ViewedVertex &p = corner[i], &q = corner[(i + 1) % 3];
+        std::array<double, 2> inside;
+        for (std::size_t e = 0; e < 2; ++e) {
+            const bool isOnEdge =
+                line.vertex[e] != kNoVertex && (line.vertex[e] == p.number || line.vertex[e] == q.number);
+            inside[e] = isOnEdge ? 0 : sign * innerSide(projector, p, q, query.end[e]);
+        }
+        hidden.keepAbove(inside[0], inside[1]);
+    }
+    if (hidden.isEmpty()) return false;
+    query.steps.emplace_back(hidden.from, 1);
+    query.steps.emplace_back(hidden.to, -1);
+    return query.deepest == 0 && hidden.from <= query.part.from && hidden.to >= query.part.to;
+}
+
+/// A border is none where another surface goes on in its triangle's plane: walls of many pieces, whose vertices do not
+/// meet, have no lines between them.
+void Occluders::Tree::findContinued(Query& query, const std::array<ViewedVertex, 3>& corner, const glm::dvec3& normal,
+    double sign, const std::array<double, 2>& height) const {
+    if (std::abs(height[0]) > kTouching * size || std::abs(height[1]) > kTouching * size) return;
+    if (std::abs(glm::dot(normal, query.faceNormal)) < 1 - 1e-6) return;
+    // The line, moved away from its own triangle by little.
+    const glm::dvec3 along = (query.end[1] - query.end[0]) / query.length;
+    const glm::dvec3 beside = glm::cross(query.faceNormal, along) * (query.shift * 2 * kTouching * size);
+    Interval part{0, 1};
+    for (std::size_t i = 0; i < 3; ++i)
+        part.keepAbove(sign * innerSide(scene.projector(), corner[i], corner[(i + 1) % 3], query.end[0] + beside),
+            sign * innerSide(scene.projector(), corner[i], corner[(i + 1) % 3], query.end[1] + beside));
+    if (!part.isEmpty()) query.continued.push_back(part);
+}
+
+Occluders::Occluders(const ViewedScene& scene, glm::ivec2 imageSize, double margin)
+    : tree_(std::make_unique<Tree>(scene, imageSize, margin)) {}
+Occluders::~Occluders() = default;
+
+/// The parts between the steps, of equal numbers joined.
+static std::vector<LinePart> partsBetween(Interval within, std::vector<std::pair<double, int>>& steps, int deepest) {
+    // At the same place a face begins before another ends: they meet there.
+    std::sort(steps.begin(), steps.end(),
+        [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; });
+    std::vector<LinePart> parts;
+    double from = within.from;
+    int behind = 0;
+    const auto close = [&](double to) {
+        if (to <= from) return;
+        const int known = std::min(behind, deepest + 1);
+        if (!parts.empty() && parts.back().behind == known && parts.back().to == from)
+            parts.back().to = to;
+        else
+            parts.push_back({from, to, known});
+        from = to;
+    };
+    for (const auto& [at, step] : steps) {
+        close(std::clamp(at, within.from, within.to));
+        behind += step;
+    }
+    close(within.to);
+    return parts;
+}
+
+/// Removes the parts of a border that are none.
+static std::vector<LinePart> without(const std::vector<LinePart>& parts, std::vector<Interval>& removed) {
+    std::sort(removed.begin(), removed.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    std::vector<LinePart> kept;
+    for (const auto& part : parts) {
+        double from = part.from;
+        for (const auto& gap : removed) {
+            if (gap.from > from && from < part.to) kept.push_back({from, std::min(gap.from, part.to), part.behind});
+            from = std::max(from, gap.to);
+        }
+        if (from < part.to) kept.push_back({from, part.to, part.behind});
+    }
+    return kept;
+}
+
+std::vector<LinePart> Occluders::partsOf(const Candidate& line, int deepest) const {
+    const Tree& tree = *tree_;
+    const Interval part = tree.partInPicture(line);
+    if (part.isEmpty()) return {};
+    Query query{line, deepest, part, glm::length(line.end[1] - line.end[0]), line.end, {}, {}, 0, {}};
+    if (!(query.length > 0)) return {};
+    if (line.face != kNoVertex) {
+        const ViewedMesh& placed = tree.scene.meshOf(line.face);
+        const auto corner = tree.scene.corners(placed, line.face - placed.firstTriangle);
+        query.faceNormal = glm::normalize(glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at));
+        const glm::dvec3 beside = glm::cross(query.faceNormal, line.end[1] - line.end[0]);
+        glm::dvec3 third{0};
+        for (const auto& one : corner)
+            if (one.number != line.vertex[0] && one.number != line.vertex[1]) third = one.at;
+        query.shift = glm::dot(beside, third - line.end[0]) > 0 ? -1 : 1;
+    }
+    const auto placeAt = [&](double t) {
+        return tree.placeOf(line.end[0] + (line.end[1] - line.end[0]) * t) - glm::dvec3(tree.middle, 0);
+    };
+    const glm::dvec3 from = placeAt(part.from), way = placeAt(part.to) - from;
+    if (glm::dvec2(way) == glm::dvec2(0)) return {};
+    Context context;
+    rtcInitIntersectContext(&context);
+    context.tree = tree_.get();
+    context.query = &query;
+    RTCRay ray{};
+    ray.org_x = static_cast<float>(from.x);
+    ray.org_y = static_cast<float>(from.y);
+    ray.org_z = static_cast<float>(from.z);
+    ray.dir_z = static_cast<float>(way.z);
+    ray.dir_x = static_cast<float>(way.x);
+    ray.dir_y = static_cast<float>(way.y);
+    ray.tfar = 1;
+    ray.mask = ~0u;
+    rtcOccluded1(tree.boxes, &context, &ray);
+    std::vector<LinePart> parts = partsBetween(part, query.steps, deepest);
+    return query.continued.empty() ? parts : without(parts, query.continued);
+}
+
+}  // namespace limn
