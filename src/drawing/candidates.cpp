@@ -36,7 +36,7 @@ public:
             }
             made.source = source;
             describe(made, scene_, placed_, owner);
-            made.component = placed_.firstVertex + placed_.edges->componentOf[edge.a];
+            made.component = placed_.firstComponent + placed_.edges->componentOf[edge.a];
             if (uses.size() == 1) made.face = placed_.firstTriangle + uses[0] / 3;
             return made;
         }
@@ -205,7 +205,8 @@ std::vector<Candidate> findCandidates(const ViewedScene& scene, const MeshLineRe
         for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
     }
     for (const auto& placed : scene.meshes()) addMarks(scene, placed, request, all);
-    if (request.wanted[static_cast<std::size_t>(MeshLineSource::intersections)]) findIntersections(scene, all);
+    if (request.wanted[static_cast<std::size_t>(MeshLineSource::intersections)])
+        findIntersections(scene, request.deepest > 0, all);
     return all;
 }
 

@@ -19,16 +19,17 @@ struct Candidate {
         kNoVertex, kNoVertex};  ///< triangles that it lies in, besides those on its edge
     MeshLineSource source = MeshLineSource::contours;
     std::uint32_t record = 0, instance = 0, part = 0, material = 0;  ///< as DrawnLine's
-    std::uint32_t component = kNoVertex;  ///< of its mesh: number of the first vertex among all
-    std::uint32_t face = kNoVertex;       ///< of a border: the triangle beside it
+    std::uint32_t component = kNoVertex;                             ///< of its mesh: number among all
+    std::uint32_t face = kNoVertex;                                  ///< of a border: the triangle beside it
 };
 
 /// The edges of all meshes with a reason to be drawn, then the scene's own lines, then intersections where they are
 /// asked for. In the order of meshes and edges, whatever the number of threads.
 std::vector<Candidate> findCandidates(const ViewedScene& scene, const MeshLineRequest& request);
 
-/// Where triangles pass through one another. Triangles that touch, or lie in one plane, do not.
-void findIntersections(const ViewedScene& scene, std::vector<Candidate>& found);
+/// Where triangles pass through one another. Triangles that touch, or lie in one plane, do not. Unless hidden ones are
+/// asked for, triangles that turn away are left out where their component is closed and seen from outside.
+void findIntersections(const ViewedScene& scene, bool withHidden, std::vector<Candidate>& found);
 
 /// What a triangle of a mesh says about its lines.
 void describe(Candidate& made, const ViewedScene& scene, const ViewedMesh& placed, std::uint32_t triangleOfMesh);

@@ -58,15 +58,44 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
     return vertex;
 }
 
-std::vector<std::uint32_t> findComponents(
-    const std::vector<std::uint32_t>& vertexOf, const std::vector<TriangleEdge>& edges) {
-    std::vector<std::uint32_t> parent = vertexOf;
-    for (const auto& edge : edges) {
+/// Numbers the components in the order of their first vertices.
+void findComponents(TriangleEdges& found) {
+    std::vector<std::uint32_t> parent = found.vertexOf;
+    for (const auto& edge : found.edges) {
         const std::uint32_t a = rootOf(parent, edge.a), b = rootOf(parent, edge.b);
         parent[std::max(a, b)] = std::min(a, b);
     }
-    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = rootOf(parent, i);
-    return parent;
+    found.componentOf.resize(parent.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < parent.size(); ++i) {
+        const std::uint32_t root = rootOf(parent, i);
+        found.componentOf[i] = root == i ? count++ : found.componentOf[root];
+    }
+    found.components.resize(count);
+}
+
+/// Measures the components' boxes, and finds those that are closed.
+void measureComponents(const TriMesh& mesh, TriangleEdges& found) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        found.components[found.componentOf[i]].box.add(glm::dvec3(mesh.positions[i]));
+    std::vector<char> isOpen(found.components.size());
+    for (const auto& edge : found.edges) {
+        // Two triangles, one along the edge and one against it.
+        const auto beginOf = [&](std::uint32_t use) { return found.vertexOf[mesh.indices[found.uses[use]]]; };
+        if (edge.useCount != 2 || beginOf(edge.firstUse) == beginOf(edge.firstUse + 1))
+            isOpen[found.componentOf[edge.a]] = true;
+    }
+    // The divergence theorem: six times the volume.
+    std::vector<double> volume(found.components.size());
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const std::uint32_t component = found.componentOf[mesh.indices[3 * t]];
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(mesh.positions[mesh.indices[3 * t + k]]) - found.components[component].box.lo;
+        };
+        volume[component] += glm::dot(corner(0), glm::cross(corner(1), corner(2)));
+    }
+    for (std::size_t i = 0; i < found.components.size(); ++i)
+        if (!isOpen[i] && volume[i] != 0) found.components[i].outward = volume[i] > 0 ? 1 : -1;
 }
 
 }  // namespace
@@ -88,7 +117,8 @@ TriangleEdges findTriangleEdges(const TriMesh& mesh) {
         }
         i = end;
     }
-    result.componentOf = findComponents(result.vertexOf, result.edges);
+    findComponents(result);
+    measureComponents(mesh, result);
     return result;
 }
 

@@ -14,11 +14,19 @@ struct TriangleEdge {
     std::uint32_t firstUse = 0, useCount = 0;  ///< a range of TriangleEdges::uses
 };
 
+/// Triangles that edges join, directly or through others.
+struct TriangleComponent {
+    Bounds box;  ///< mesh units, as TriMesh::positions
+    /// 1: closed, counter-clockwise from outside; −1: closed, clockwise from outside; 0: open, or of several minds.
+    int outward = 0;
+};
+
 /// Vertices in the same place are one here, whatever attributes split them.
 struct TriangleEdges {
     std::vector<std::uint32_t> vertexOf;     ///< of each position: the first position in the same place
-    std::vector<std::uint32_t> componentOf;  ///< of each position: the first vertex of those that edges join to it
-    std::vector<TriangleEdge> edges;         ///< ascending by (a, b)
+    std::vector<std::uint32_t> componentOf;  ///< of each position: index into components
+    std::vector<TriangleComponent> components;
+    std::vector<TriangleEdge> edges;  ///< ascending by (a, b)
     std::vector<std::uint32_t> uses;  ///< 3 · triangle + corner that the edge begins at, ascending for each edge
 };
 

@@ -25,13 +25,51 @@ struct Crossing {
 struct Tree {
     const ViewedScene& scene;
     double touching;  ///< triangles come this close without passing through one another
+    struct Leaf {
+        std::uint32_t triangle;  ///< number among all
+        std::uint32_t mesh;      ///< index into ViewedScene::meshes()
+        std::array<std::uint32_t, 3> vertex;
+    };
+    std::vector<Leaf> leaves;
     tbb::enumerable_thread_specific<std::vector<Crossing>> found;
+
+    std::array<ViewedVertex, 3> corners(const Leaf& leaf) const {
+        return {ViewedVertex{leaf.vertex[0], scene.at(leaf.vertex[0])}, {leaf.vertex[1], scene.at(leaf.vertex[1])},
+            {leaf.vertex[2], scene.at(leaf.vertex[2])}};
+    }
 };
+
+/// The components of a mesh of which only triangles that face the camera can be seen: on which side that is.
+std::vector<int> oneSided(const ViewedScene& scene, const ViewedMesh& placed) {
+    const glm::dvec3 eye = glm::inverse(placed.viewFromMesh) * -placed.pivot;
+    std::vector<int> side;
+    for (const auto& component : placed.edges->components) {
+        const bool isInside = !scene.projector().isParallel && glm::all(glm::greaterThanEqual(eye, component.box.lo))
+            && glm::all(glm::lessThanEqual(eye, component.box.hi));
+        side.push_back(isInside ? 0 : component.outward * (glm::determinant(placed.viewFromMesh) < 0 ? -1 : 1));
+    }
+    return side;
+}
+
+void addLeaves(Tree& tree, bool withHidden) {
+    for (std::uint32_t i = 0; i < tree.scene.meshes().size(); ++i) {
+        const ViewedMesh& placed = tree.scene.meshes()[i];
+        const std::vector<int> sides = oneSided(tree.scene, placed);
+        for (std::uint32_t t = 0; t < placed.mesh->triangleCount(); ++t) {
+            const auto corner = tree.scene.corners(placed, t);
+            const int side = sides[placed.edges->componentOf[corner[0].number - placed.firstVertex]];
+            const glm::dvec3 n = glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
+            const double facing = side * (tree.scene.projector().isParallel ? n.z : -glm::dot(n, corner[0].at));
+            if (facing < 0 && !withHidden) continue;
+            tree.leaves.push_back(
+                {placed.firstTriangle + t, i, {corner[0].number, corner[1].number, corner[2].number}});
+        }
+    }
+}
 
 void boundsOf(const RTCBoundsFunctionArguments* args) {
     const auto& tree = *static_cast<const Tree*>(args->geometryUserPtr);
-    const ViewedMesh& placed = tree.scene.meshOf(args->primID);
-    const auto corner = tree.scene.corners(placed, args->primID - placed.firstTriangle);
+    const auto corner = tree.corners(tree.leaves[args->primID]);
     const glm::dvec3 low = glm::min(corner[0].at, glm::min(corner[1].at, corner[2].at)),
                      high = glm::max(corner[0].at, glm::max(corner[1].at, corner[2].at));
     // One float farther out each way.
@@ -73,10 +111,14 @@ bool cut(const Corners& corner, const Plane& plane, double touching, std::array<
     return found == 2;
 }
 
+bool sharesVertex(const Tree::Leaf& one, const Tree::Leaf& other) {
+    for (const std::uint32_t p : one.vertex)
+        for (const std::uint32_t q : other.vertex)
+            if (p == q) return true;
+    return false;
+}
+
 bool intersect(const Corners& one, const Corners& other, double touching, std::array<glm::dvec3, 2>& segment) {
-    for (const auto& p : one)
-        for (const auto& q : other)
-            if (p.number == q.number) return false;
     const Plane first(one), second(other);
     std::array<glm::dvec3, 2> a, b;
     if (!cut(one, second, touching, a) || !cut(other, first, touching, b)) return false;
@@ -95,12 +137,11 @@ void takePairs(void* user, RTCCollision* collisions, unsigned count) {
     auto& tree = *static_cast<Tree*>(user);
     auto& found = tree.found.local();
     for (unsigned i = 0; i < count; ++i) {
-        const std::uint32_t first = collisions[i].primID0, second = collisions[i].primID1;
-        if (first >= second) continue;
-        const ViewedMesh &one = tree.scene.meshOf(first), &other = tree.scene.meshOf(second);
-        Crossing crossing{first, second, {}};
-        if (intersect(tree.scene.corners(one, first - one.firstTriangle),
-                tree.scene.corners(other, second - other.firstTriangle), tree.touching, crossing.segment))
+        if (collisions[i].primID0 >= collisions[i].primID1) continue;
+        const Tree::Leaf &one = tree.leaves[collisions[i].primID0], &other = tree.leaves[collisions[i].primID1];
+        if (sharesVertex(one, other)) continue;
+        Crossing crossing{one.triangle, other.triangle, {}};
+        if (intersect(tree.corners(one), tree.corners(other), tree.touching, crossing.segment))
             found.push_back(crossing);
     }
 }
@@ -113,13 +154,16 @@ struct ReleaseScene {
 };
 
 /// In the order of triangles.
-std::vector<Crossing> crossings(const ViewedScene& scene) {
+std::vector<Crossing> crossings(const ViewedScene& scene, bool withHidden) {
     const SceneInfo& info = scene.scene().info;
-    Tree tree{scene, kCoincidentDistance * info.diagonal() * info.unit(), {}};
+    Tree tree{scene, kCoincidentDistance * info.diagonal() * info.unit(), {}, {}};
+    addLeaves(tree, withHidden);
+    if (tree.leaves.size() < 2) return {};
     const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(nullptr));
     const std::unique_ptr<RTCSceneTy, ReleaseScene> boxes(rtcNewScene(device.get()));
+    rtcSetSceneBuildQuality(boxes.get(), RTC_BUILD_QUALITY_LOW);
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(scene.triangleCount()));
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(tree.leaves.size()));
     rtcSetGeometryUserData(geometry, &tree);
     rtcSetGeometryBoundsFunction(geometry, boundsOf, nullptr);
     rtcCommitGeometry(geometry);
@@ -142,9 +186,8 @@ std::vector<Crossing> crossings(const ViewedScene& scene) {
 
 }  // namespace
 
-void findIntersections(const ViewedScene& scene, std::vector<Candidate>& found) {
-    if (scene.triangleCount() < 2) return;
-    for (const Crossing& crossing : crossings(scene)) {
+void findIntersections(const ViewedScene& scene, bool withHidden, std::vector<Candidate>& found) {
+    for (const Crossing& crossing : crossings(scene, withHidden)) {
         const ViewedMesh& placed = scene.meshOf(crossing.first);
         Candidate made;
         made.end = crossing.segment;

@@ -4,6 +4,7 @@
 #include "mesh/coincident.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +18,18 @@ namespace {
 /// Sheets closer than this are one, in parts of the scene's size: what two files, or a file and a rounded transform,
 /// say about one plane.
 constexpr double kTouching = kCoincidentDistance;
-/// The same within a connected mesh, whose floats agree: a rounding of its coordinates.
-constexpr double kTouchingInMesh = 2e-7;
-/// And of a triangle that shares a vertex with the line, in parts of the line's length: a rounding of an angle.
-constexpr double kTouchingAtVertex = 1e-6;
+/// The same within a connected mesh, in parts of the line's or the triangle's length, whichever is longer: its floats
+/// agree, and a fine mesh folds over itself in steps far below the scene's size.
+constexpr double kTouchingInMesh = 1e-6;
 /// Boxes in the picture are wider than their triangles by this, in parts of the largest coordinate: the rounding of
 /// coordinates to floats, and of the tree's own arithmetic.
 constexpr double kBoxSlack = 1e-6;
 
 /// What the tree's leaves are.
 struct Triangle {
-    std::uint32_t number;  ///< among all
-    std::uint32_t mesh;    ///< index into ViewedScene::meshes()
+    std::uint32_t number = 0;  ///< among all
+    std::uint32_t mesh = 0;    ///< index into ViewedScene::meshes()
+    std::array<float, 6> box;  ///< around it in the picture, from its nearest point on, a little larger than it
 };
 
 /// An interval of a line's parameter.
@@ -97,12 +98,7 @@ struct Occluders::Tree {
           middle(0.5 * glm::dvec2(imageSize)),
           size(scene_.scene().info.diagonal() * scene_.scene().info.unit()) {
         measureDepths();
-        for (std::uint32_t i = 0; i < scene.meshes().size(); ++i) {
-            const ViewedMesh& placed = scene.meshes()[i];
-            for (std::uint32_t t = 0; t < placed.mesh->triangleCount(); ++t)
-                if (const Triangle triangle{placed.firstTriangle + t, i}; boxOf(triangle))
-                    triangles.push_back(triangle);
-        }
+        findSeen();
         build();
     }
     ~Tree() {
@@ -117,9 +113,8 @@ struct Occluders::Tree {
     glm::dvec3 placeOf(const glm::dvec3& p) const { return {scene.projector().place(p), levelOf(-p.z)}; }
 
     /// The box around a triangle in the picture, from its nearest point on; nullopt where it is not seen.
-    std::optional<Box> boxOf(const Triangle& triangle) const {
-        const ViewedMesh& placed = scene.meshes()[triangle.mesh];
-        const auto corner = scene.corners(placed, triangle.number - placed.firstTriangle);
+    std::optional<Box> boxOf(const ViewedMesh& placed, std::uint32_t triangleOfMesh) const {
+        const auto corner = scene.corners(placed, triangleOfMesh);
         const Projector& projector = scene.projector();
         Box box;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -135,6 +130,29 @@ struct Occluders::Tree {
         box.low = glm::max(box.low, glm::dvec3(low, box.low.z));
         box.high = glm::min(box.high, glm::dvec3(high, box.high.z));
         return box;
+    }
+
+    /// The triangles in the picture, in their order.
+    void findSeen() {
+        const double slack = kBoxSlack * std::max(glm::length(high), 1.0);
+        constexpr std::size_t kPart = 8192;
+        for (std::uint32_t i = 0; i < scene.meshes().size(); ++i) {
+            const ViewedMesh& placed = scene.meshes()[i];
+            const std::size_t count = placed.mesh->triangleCount();
+            std::vector<std::vector<Triangle>> parts((count + kPart - 1) / kPart);
+            tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+                for (std::size_t t = part * kPart; t < std::min(count, (part + 1) * kPart); ++t) {
+                    const auto box = boxOf(placed, static_cast<std::uint32_t>(t));
+                    if (!box) continue;
+                    const glm::vec3 least(box->low - glm::dvec3(middle + slack, kBoxSlack)),
+                        most(box->high + glm::dvec3(slack - middle, 0));
+                    // What lies behind the triangle may be hidden by it, however far.
+                    parts[part].push_back({placed.firstTriangle + static_cast<std::uint32_t>(t), i,
+                        {least.x, least.y, least.z, most.x, most.y, static_cast<float>(farthest + kBoxSlack)}});
+                }
+            });
+            for (const auto& part : parts) triangles.insert(triangles.end(), part.begin(), part.end());
+        }
     }
 
     void measureDepths() {
@@ -158,14 +176,8 @@ namespace {
 
 void boundsOfTriangle(const RTCBoundsFunctionArguments* args) {
     const auto& tree = *static_cast<const Occluders::Tree*>(args->geometryUserPtr);
-    const auto box = tree.boxOf(tree.triangles[args->primID]);
-    const double slack = kBoxSlack * std::max(glm::length(tree.high), 1.0);
-    const glm::dvec2 lower = glm::dvec2(box->low) - tree.middle - slack,
-                     upper = glm::dvec2(box->high) - tree.middle + slack;
-    // What lies behind the triangle may be hidden by it, however far.
-    *args->bounds_o = {static_cast<float>(lower.x), static_cast<float>(lower.y),
-        static_cast<float>(box->low.z - kBoxSlack), 0, static_cast<float>(upper.x), static_cast<float>(upper.y),
-        static_cast<float>(tree.farthest + kBoxSlack), 0};
+    const auto& box = tree.triangles[args->primID].box;
+    *args->bounds_o = {box[0], box[1], box[2], 0, box[3], box[4], box[5], 0};
 }
 
 void meetTriangle(const RTCOccludedFunctionNArguments* args) {
@@ -182,6 +194,9 @@ void Occluders::Tree::build() {
     device = rtcNewDevice(nullptr);
     boxes = rtcNewScene(device);
     rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
+    // Few lines are asked for beside so many triangles: a tree that is made fast is better than one that is walked
+    // fast.
+    rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_LOW);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
     rtcSetGeometryUserData(geometry, this);
@@ -221,10 +236,13 @@ double Occluders::Tree::touchingOf(const Query& query, const ViewedMesh& placed,
     const std::array<ViewedVertex, 3>& corner, std::size_t end, bool sharesVertex) const {
     for (const auto& one : corner)
         if (one.number == query.line.vertex[end]) return 0;
-    if (sharesVertex) return kTouchingAtVertex * query.length;
     const std::uint32_t component =
-        placed.firstVertex + placed.edges->componentOf[corner[0].number - placed.firstVertex];
-    return (component == query.line.component ? kTouchingInMesh : kTouching) * size;
+        placed.firstComponent + placed.edges->componentOf[corner[0].number - placed.firstVertex];
+    if (component != query.line.component && !sharesVertex) return kTouching * size;
+    double longest = query.length;
+    for (std::size_t i = 0; i < 3 && !sharesVertex; ++i)
+        longest = std::max(longest, glm::distance(corner[i].at, corner[(i + 1) % 3].at));
+    return kTouchingInMesh * longest;
 }
 
 /// The function of three points that is above 0 where `x` is seen on the inner side of the edge from p to q. Both

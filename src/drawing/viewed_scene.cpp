@@ -15,7 +15,7 @@ Projector::Projector(const View& view)
 ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf,
     std::span<const TriangleEdges* const> edgesOf, const View& view)
     : scene_(scene), projector_(view) {
-    std::size_t vertices = 0;
+    std::size_t vertices = 0, components = 0;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         ViewedMesh placed;
         placed.mesh = meshOf[i];
@@ -23,6 +23,8 @@ ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> m
         placed.instance = &scene.instances[i];
         placed.firstVertex = static_cast<std::uint32_t>(vertices);
         placed.firstTriangle = static_cast<std::uint32_t>(triangleCount_);
+        placed.firstComponent = static_cast<std::uint32_t>(components);
+        components += placed.edges->components.size();
         vertices += placed.mesh->positions.size();
         triangleCount_ += placed.mesh->triangleCount();
         meshes_.push_back(placed);

@@ -36,11 +36,12 @@ struct ViewedMesh {
     const TriMesh* mesh = nullptr;
     const TriangleEdges* edges = nullptr;
     const DrawInstance* instance = nullptr;
-    std::uint32_t firstVertex = 0;    ///< number of its first position among all
-    std::uint32_t firstTriangle = 0;  ///< number of its first triangle among all
-    glm::dmat3 viewFromMesh{1};       ///< of directions
-    glm::dvec3 pivot{0};              ///< view space
-    glm::dmat3 normalMatrix{1};       ///< view space from mesh space, for directions across surfaces
+    std::uint32_t firstVertex = 0;     ///< number of its first position among all
+    std::uint32_t firstTriangle = 0;   ///< number of its first triangle among all
+    std::uint32_t firstComponent = 0;  ///< number of its first component among all
+    glm::dmat3 viewFromMesh{1};        ///< of directions
+    glm::dvec3 pivot{0};               ///< view space
+    glm::dmat3 normalMatrix{1};        ///< view space from mesh space, for directions across surfaces
 };
 
 /// A vertex: its number among all, the same for all that lie in one place of a mesh.
