@@ -1,6 +1,7 @@
 #include "drawing/candidates.h"
 
 #include "base/content_key.h"
+#include "drawing/smooth_contours.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,13 +18,15 @@ constexpr double kEdgeOn = 1e-9;
 /// Finds the reasons of one mesh's edges.
 class EdgeReasons {
 public:
-    EdgeReasons(const ViewedScene& scene, const ViewedMesh& placed, const MeshLineRequest& request)
-        : scene_(scene), placed_(placed), mesh_(*placed.mesh), request_(request) {}
+    /// `isSmooth`: SmoothContours'; empty where contours are not wanted.
+    EdgeReasons(const ViewedScene& scene, const ViewedMesh& placed, const MeshLineRequest& request,
+        const std::vector<char>& isSmooth)
+        : scene_(scene), placed_(placed), mesh_(*placed.mesh), request_(request), isSmooth_(isSmooth) {}
 
     std::optional<Candidate> candidate(const TriangleEdge& edge) const {
-        const auto uses = std::span(placed_.edges->uses).subspan(edge.firstUse, edge.useCount);
-        if (uses.size() > 2 && isDoubled(uses)) return std::nullopt;
-        const std::uint32_t owner = ownerOf(edge, uses);
+        std::vector<std::uint32_t> doubled;
+        const Uses uses = distinctUses(edge, doubled);
+        const std::uint32_t owner = ownerOf(uses);
         const LineRecord& record = recordOf(owner);
         if (!record.draws) return std::nullopt;
         for (const MeshLineSource source : kMeshLinePriority) {
@@ -59,14 +62,19 @@ private:
     glm::dvec3 cornerAt(std::uint32_t corner) const { return scene_.vertex(placed_, mesh_.indices[corner]).at; }
     static std::uint32_t opposite(std::uint32_t corner) { return corner / 3 * 3 + (corner + 2) % 3; }
 
-    /// Do the triangles come in pairs of the same three vertices? Such an edge lies within a doubled surface.
-    bool isDoubled(Uses uses) const {
-        if (uses.size() != 4) return false;
-        std::array<std::uint32_t, 4> third;
-        for (std::size_t i = 0; i < 4; ++i) third[i] = placed_.edges->vertexOf[mesh_.indices[opposite(uses[i])]];
-        std::sort(third.begin(), third.end());
-        return third[0] == third[1] && third[2] == third[3] && third[1] != third[2]
-            && !request_.wanted[static_cast<std::size_t>(MeshLineSource::creases)];
+    /// The triangles on an edge, once each: sheets that are there twice are one. `kept` holds them where some were left
+    /// out.
+    Uses distinctUses(const TriangleEdge& edge, std::vector<std::uint32_t>& kept) const {
+        const Uses all = Uses(placed_.edges->uses).subspan(edge.firstUse, edge.useCount);
+        if (all.size() < 2) return all;
+        const auto thirdOf = [&](std::uint32_t corner) {
+            return placed_.edges->vertexOf[mesh_.indices[opposite(corner)]];
+        };
+        if (all.size() == 2 && thirdOf(all[0]) != thirdOf(all[1])) return all;
+        for (const std::uint32_t corner : all)
+            if (std::none_of(kept.begin(), kept.end(), [&](auto other) { return thirdOf(other) == thirdOf(corner); }))
+                kept.push_back(corner);
+        return kept;
     }
 
     /// The side of the edge on which a triangle is seen: −1, 1, or 0 where it is seen from its edge.
@@ -80,7 +88,7 @@ private:
     }
 
     /// The triangle whose object and material an edge belongs to: the first that faces the camera, else the first.
-    std::uint32_t ownerOf(const TriangleEdge&, Uses uses) const {
+    std::uint32_t ownerOf(Uses uses) const {
         for (const std::uint32_t corner : uses) {
             const std::uint32_t first = corner / 3 * 3;
             const glm::dvec3 p = cornerAt(first), n = glm::cross(cornerAt(first + 1) - p, cornerAt(first + 2) - p);
@@ -100,28 +108,33 @@ private:
     }
 
     /// The shading normal of a triangle's side of an edge: the mean of both ends'.
-    glm::dvec3 normalAt(const TriangleEdge& edge, std::uint32_t corner) const {
+    glm::dvec3 normalAt(std::uint32_t corner) const {
         const std::uint32_t next = corner / 3 * 3 + (corner + 1) % 3, first = corner / 3 * 3;
         if (!mesh_.normals.empty()) {
             const auto& indices = mesh_.normalIndices.empty() ? mesh_.indices : mesh_.normalIndices;
             const glm::vec3 sum = mesh_.normals[indices[corner]] + mesh_.normals[indices[next]];
             if (glm::dot(sum, sum) > 1e-6f) return glm::normalize(placed_.normalMatrix * glm::dvec3(sum));
         }
-        (void)edge;
         const glm::dvec3 n = glm::cross(cornerAt(first + 1) - cornerAt(first), cornerAt(first + 2) - cornerAt(first));
         const double length = glm::length(n);
         return length > 0 ? n / length : glm::dvec3(0);
     }
 
-    bool isCrease(const TriangleEdge& edge, Uses uses, const LineRecord& record) const {
-        if (uses.size() != 2) return uses.size() > 2;
-        const bool runsAlike =
-            placed_.edges->vertexOf[mesh_.indices[uses[0]]] == placed_.edges->vertexOf[mesh_.indices[uses[1]]];
-        const glm::dvec3 one = normalAt(edge, uses[0]), other = normalAt(edge, uses[1]);
-        if (one == glm::dvec3(0) || other == glm::dvec3(0)) return false;
+    bool isCrease(Uses uses, const LineRecord& record) const {
         const double least =
             record.creaseAngle > 0 ? std::cos(glm::radians(record.creaseAngle)) : request_.creaseCosine;
-        return glm::dot(one, runsAlike ? -other : other) < least;
+        for (std::size_t i = 0; i + 1 < uses.size(); ++i)
+            for (std::size_t j = i + 1; j < uses.size(); ++j) {
+                const glm::dvec3 one = normalAt(uses[i]), other = normalAt(uses[j]);
+                if (one == glm::dvec3(0) || other == glm::dvec3(0)) continue;
+                const double cosine = glm::dot(one, other);
+                const bool runsAlike =
+                    placed_.edges->vertexOf[mesh_.indices[uses[i]]] == placed_.edges->vertexOf[mesh_.indices[uses[j]]];
+                // Where more than two meet, a surface that goes on through the edge is no crease, whichever way it is
+                // wound.
+                if ((uses.size() > 2 ? std::abs(cosine) : runsAlike ? -cosine : cosine) < least) return true;
+            }
+        return false;
     }
 
     bool differ(Uses uses, const auto& valueOf) const {
@@ -133,13 +146,15 @@ private:
         switch (source) {
             case MeshLineSource::sections:
                 return differ(uses, [&](std::uint32_t corner) { return recordOf(corner / 3).isCut; });
-            case MeshLineSource::contours: return uses.size() > 1 && isContour(edge, uses);
+            case MeshLineSource::contours:
+                return uses.size() > 1 && isContour(edge, uses)
+                    && !(isSmooth_[placed_.edges->componentOf[edge.a]] && isSmoothEdge(placed_, edge));
             case MeshLineSource::borders: return uses.size() == 1;
             case MeshLineSource::objects: return differ(uses, [&](std::uint32_t corner) { return partOf(corner / 3); });
             case MeshLineSource::materials:
                 return differ(
                     uses, [&](std::uint32_t corner) { return placed_.instance->materials[materialOf(corner / 3)]; });
-            case MeshLineSource::creases: return isCrease(edge, uses, record);
+            case MeshLineSource::creases: return isCrease(uses, record);
             case MeshLineSource::intersections:
             case MeshLineSource::marks: return false;
         }
@@ -150,6 +165,7 @@ private:
     const ViewedMesh& placed_;
     const TriMesh& mesh_;
     const MeshLineRequest& request_;
+    const std::vector<char>& isSmooth_;
 };
 
 /// The lines that a mesh draws itself.
@@ -192,7 +208,11 @@ std::uint64_t nodeAt(const glm::dvec3& place) {
 std::vector<Candidate> findCandidates(const ViewedScene& scene, const MeshLineRequest& request) {
     std::vector<Candidate> all;
     for (const auto& placed : scene.meshes()) {
-        const EdgeReasons reasons(scene, placed, request);
+        SmoothContours smooth;
+        if (request.wanted[static_cast<std::size_t>(MeshLineSource::contours)])
+            smooth = findSmoothContours(scene, placed);
+        all.insert(all.end(), smooth.lines.begin(), smooth.lines.end());
+        const EdgeReasons reasons(scene, placed, request, smooth.isSmooth);
         const auto& edges = placed.edges->edges;
         // Parts of fixed size, joined in their order.
         constexpr std::size_t kPart = 4096;

@@ -11,7 +11,8 @@ inline constexpr std::uint32_t kNoVertex = ~std::uint32_t{0};
 
 /// A straight piece of line in space.
 struct Candidate {
-    std::array<glm::dvec3, 2> end;  ///< view space, normalized units
+    std::array<glm::dvec3, 2> end;   ///< view space, normalized units
+    std::array<glm::dvec3, 2> lift;  ///< added to them where it is asked what hides the line
     /// Numbers of its ends among all vertices (ViewedVertex), or kNoVertex.
     std::array<std::uint32_t, 2> vertex{kNoVertex, kNoVertex};
     std::array<std::uint64_t, 2> node{0, 0};  ///< pieces join where they share one; 0: where they share a vertex

@@ -122,6 +122,61 @@ void clean(std::vector<Span>& spans, int deepest, bool isClosed) {
     }
 }
 
+glm::dvec2 wayTo(const LinePoint& a, const LinePoint& b) { return b.place - a.place; }
+
+/// Takes the points away with which a line turns back at its end: beyond a cusp the surface hides it, and the mesh only
+/// shows it on because its facets are flat.
+void trimHook(std::vector<LinePoint>& points) {
+    double length = 0;
+    for (std::size_t i = points.size() - 1; i >= 2 && length < kLongestFold; --i) {
+        length += glm::length(wayTo(points[i - 1], points[i]));
+        if (length < kLongestFold
+            && glm::dot(wayTo(points[i - 2], points[i - 1]), wayTo(points[i - 1], points[i])) < 0) {
+            points.resize(i);
+            return;
+        }
+    }
+}
+
+/// Continues a visible line with another one over a fold: without what would go back.
+void append(std::vector<LinePoint>& points, const std::vector<LinePoint>& more) {
+    std::size_t first = 0;
+    if (points.size() > 1) {
+        const glm::dvec2 way = wayTo(points[points.size() - 2], points.back());
+        while (first + 1 < more.size() && glm::dot(wayTo(points.back(), more[first]), way) < 0) ++first;
+    }
+    points.insert(points.end(), more.begin() + static_cast<std::ptrdiff_t>(first), more.end());
+}
+
+/// Contours of a mesh fold where its facets are nearly seen from their edges: pieces of them hide one another, though
+/// the surface's own contour runs on. Folds no longer than kLongestFold are bridged, and hooks at cusps left out.
+void unfold(std::vector<Span>& spans) {
+    std::vector<Span> unfolded;
+    for (auto& span : spans) {
+        const std::size_t count = unfolded.size();
+        const bool bridges = span.behind == 0 && count > 1 && unfolded[count - 1].behind > 0
+            && unfolded[count - 2].behind == 0 && unfolded[count - 1].length < 2 * kLongestFold
+            && glm::length(wayTo(unfolded[count - 2].points.back(), span.points.front())) < kLongestFold;
+        if (!bridges) {
+            unfolded.push_back(std::move(span));
+            continue;
+        }
+        unfolded.pop_back();
+        append(unfolded.back().points, span.points);
+        unfolded.back().length += span.length;
+    }
+    spans = std::move(unfolded);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        auto& points = spans[i].points;
+        if (spans[i].behind > 0) continue;
+        if (i + 1 < spans.size()) trimHook(points);
+        if (i == 0) continue;
+        std::reverse(points.begin(), points.end());
+        trimHook(points);
+        std::reverse(points.begin(), points.end());
+    }
+}
+
 class Chainer {
 public:
     Chainer(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest)
@@ -154,9 +209,19 @@ private:
             end = links_[end ^ 1u];
         } while (end != kNothing && end != start);
         clean(spans, deepest_, isClosed);
+        if (candidates_[pieces_[start / 2].candidate].source == MeshLineSource::contours && spans.size() > 1) {
+            if (isClosed) beginWithLongest(spans);
+            unfold(spans);
+            joinAlike(spans, deepest_);
+        }
         if (isClosed && spans.size() > 1) turn(spans);
         for (auto& span : spans)
             if (span.behind <= deepest_) put(std::move(span), start, isClosed && spans.size() == 1);
+    }
+
+    static void beginWithLongest(std::vector<Span>& spans) {
+        const auto isShorter = [](const Span& a, const Span& b) { return a.length < b.length; };
+        std::rotate(spans.begin(), std::max_element(spans.begin(), spans.end(), isShorter), spans.end());
     }
 
     /// Lets a closed chain begin where its look changes.

@@ -20,6 +20,9 @@ struct LinePiece {
 /// mesh's small folds beside its contour make many.
 inline constexpr double kShortestPart = 0.25;
 
+/// Folds of a contour that are shorter are no part of the surface's own contour, in pixels.
+inline constexpr double kLongestFold = 2;
+
 /// Removes the parts of pieces that lie on others in the picture, so that no line is drawn twice: hidden ones under
 /// visible ones, then those of the later source, then those that come later. Pieces behind more
 /// than `deepest` faces are left as they are.

@@ -4,7 +4,9 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 
 namespace limn {
@@ -12,24 +14,77 @@ namespace {
 
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
-std::uint64_t mixed(const glm::vec3& p) {
-    // Multiplicative hashing by odd numbers near the golden ratio (Knuth, TAOCP 3, 6.4); −0 is 0.
-    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x + 0.0f)}; };
-    std::uint64_t h = (bits(p.x) << 32 | bits(p.y)) * 0x9E3779B97F4A7C15u;
-    h = (h ^ (h >> 29) ^ bits(p.z)) * 0xBF58476D1CE4E5B9u;
-    return h ^ (h >> 32);
+/// Vertices this close are one, in parts of the mesh's size: a few roundings of coordinates, which are what is between
+/// the vertices of cracks that nobody meant.
+constexpr double kSamePlace = 2e-7;
+
+using Cell = std::array<std::int64_t, 3>;
+
+std::uint64_t mixed(const Cell& cell) {
+    // Multiplicative hashing by odd numbers near the golden ratio (Knuth, TAOCP 3, 6.4).
+    std::uint64_t h = static_cast<std::uint64_t>(cell[0]) * 0x9E3779B97F4A7C15u;
+    h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(cell[1])) * 0xBF58476D1CE4E5B9u;
+    h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(cell[2])) * 0x94D049BB133111EBu;
+    return h ^ (h >> 31);
 }
+
+/// Finds the first position in each place.
+class Places {
+public:
+    explicit Places(const std::vector<glm::vec3>& positions)
+        : positions_(positions), table_(std::bit_ceil(2 * positions.size() + 1), kFree) {
+        Bounds box;
+        for (const auto& p : positions) box.add(glm::dvec3(p));
+        low_ = box.lo;
+        near_ = kSamePlace * box.diagonal();
+        side_ = near_ > 0 ? 16 * near_ : 1;
+    }
+
+    std::uint32_t firstAt(std::uint32_t i) {
+        // Cells are wide: few positions lie so near the side of theirs that the next one matters.
+        const glm::dvec3 at = (glm::dvec3(positions_[i]) - low_) / side_;
+        const double margin = near_ / side_;
+        Cell first, last, own;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = at[static_cast<int>(k)];
+            own[k] = static_cast<std::int64_t>(std::floor(x));
+            first[k] = static_cast<std::int64_t>(std::floor(x - margin));
+            last[k] = static_cast<std::int64_t>(std::floor(x + margin));
+        }
+        std::uint32_t found = kFree;
+        Cell cell;
+        for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0])
+            for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
+                for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2]) found = std::min(found, look(cell, i));
+        if (found == kFree) insert(own, i);
+        return std::min(found, i);
+    }
+
+private:
+    std::size_t mask() const { return table_.size() - 1; }
+    std::uint32_t look(const Cell& cell, std::uint32_t i) const {
+        for (std::size_t slot = mixed(cell) & mask(); table_[slot] != kFree; slot = (slot + 1) & mask()) {
+            const glm::vec3 apart = glm::abs(positions_[table_[slot]] - positions_[i]);
+            if (static_cast<double>(std::max({apart.x, apart.y, apart.z})) <= near_) return table_[slot];
+        }
+        return kFree;
+    }
+    void insert(const Cell& cell, std::uint32_t i) {
+        std::size_t slot = mixed(cell) & mask();
+        while (table_[slot] != kFree) slot = (slot + 1) & mask();
+        table_[slot] = i;
+    }
+
+    const std::vector<glm::vec3>& positions_;
+    std::vector<std::uint32_t> table_;
+    glm::dvec3 low_{0};
+    double near_ = 0, side_ = 1;
+};
 
 std::vector<std::uint32_t> joinPlaces(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> vertexOf(positions.size());
-    std::vector<std::uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kFree);
-    const std::size_t mask = table.size() - 1;
-    for (std::uint32_t i = 0; i < positions.size(); ++i) {
-        std::size_t slot = mixed(positions[i]) & mask;
-        while (table[slot] != kFree && positions[table[slot]] != positions[i]) slot = (slot + 1) & mask;
-        if (table[slot] == kFree) table[slot] = i;
-        vertexOf[i] = table[slot];
-    }
+    Places places(positions);
+    for (std::uint32_t i = 0; i < positions.size(); ++i) vertexOf[i] = places.firstAt(i);
     return vertexOf;
 }
 

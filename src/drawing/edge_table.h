@@ -21,7 +21,7 @@ struct TriangleComponent {
     int outward = 0;
 };
 
-/// Vertices in the same place are one here, whatever attributes split them.
+/// Vertices in the same place, within a few roundings, are one here, whatever attributes or cracks split them.
 struct TriangleEdges {
     std::vector<std::uint32_t> vertexOf;     ///< of each position: the first position in the same place
     std::vector<std::uint32_t> componentOf;  ///< of each position: index into components

@@ -219,7 +219,9 @@ void Occluders::Tree::build() {
 Interval Occluders::Tree::partInPicture(const Candidate& line) const {
     const Projector& projector = scene.projector();
     Interval part{0, 1};
-    const auto keep = [&](const auto& function) { part.keepAbove(function(line.end[0]), function(line.end[1])); };
+    const auto keep = [&](const auto& function) {
+        part.keepAbove(function(line.end[0] + line.lift[0]), function(line.end[1] + line.lift[1]));
+    };
     if (!projector.isParallel) keep([&](const glm::dvec3& p) { return -p.z - projector.nearest; });
     for (int axis = 0; axis < 2; ++axis) {
         const double from = projector.rayOffset[axis] + projector.rayScale[axis] * low[axis],
@@ -359,7 +361,8 @@ std::vector<LinePart> Occluders::partsOf(const Candidate& line, int deepest) con
     const Tree& tree = *tree_;
     const Interval part = tree.partInPicture(line);
     if (part.isEmpty()) return {};
-    Query query{line, deepest, part, glm::length(line.end[1] - line.end[0]), line.end, {}, {}, 0, {}};
+    Query query{line, deepest, part, glm::length(line.end[1] - line.end[0]),
+        {line.end[0] + line.lift[0], line.end[1] + line.lift[1]}, {}, {}, 0, {}};
     if (!(query.length > 0)) return {};
     if (line.face != kNoVertex) {
         const ViewedMesh& placed = tree.scene.meshOf(line.face);
@@ -372,7 +375,7 @@ std::vector<LinePart> Occluders::partsOf(const Candidate& line, int deepest) con
         query.shift = glm::dot(beside, third - line.end[0]) > 0 ? -1 : 1;
     }
     const auto placeAt = [&](double t) {
-        return tree.placeOf(line.end[0] + (line.end[1] - line.end[0]) * t) - glm::dvec3(tree.middle, 0);
+        return tree.placeOf(glm::mix(query.end[0], query.end[1], t)) - glm::dvec3(tree.middle, 0);
     };
     const glm::dvec3 from = placeAt(part.from), way = placeAt(part.to) - from;
     if (glm::dvec2(way) == glm::dvec2(0)) return {};

@@ -452,7 +452,7 @@ TEST(Parameters, eachStandsForItself) {
             const std::string was = f.type().text(f.constMember(defaults.get()));
             std::string value = was == "true" ? "false" : "true";
             if ((f.type().components == 1 && f.type().name != "boolean") || f.type().name == "integer")
-                value = was == numberText(f.info.min) || !std::isfinite(f.info.min)
+                value = std::strtod(was.c_str() + (was[0] == '"'), nullptr) == f.info.min || !std::isfinite(f.info.min)
                     ? (std::isfinite(f.info.max) ? numberText(f.info.max) : "7")
                     : numberText(f.info.min);
             if (f.type().name == "colour") value = "\"#123456\"";

@@ -142,7 +142,8 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.rate = graph.view().isBlurred ? kEverySample : 1;
     pass.writes = {{"result", result}};
     pass.needs = SceneData::triangles;
-    if (request.wanted[static_cast<std::size_t>(MeshLineSource::creases)]) pass.needs = pass.needs | SceneData::normals;
+    for (const auto source : {MeshLineSource::contours, MeshLineSource::creases})
+        if (request.wanted[static_cast<std::size_t>(source)]) pass.needs = pass.needs | SceneData::normals;
     const auto below = graph.find(aov::edges);
     if (below) pass.reads = {{"layersBelow", *below}};
     pass.work = [look = look, request = request, hasBelow = below.has_value()](HostWork& work) {
