@@ -6,6 +6,7 @@ Each stands for a kind of file that people bring. Needs the folder "reports" of 
 
 import glob
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -318,6 +319,35 @@ def z_up_38():
     begun, _ = draw("house/house.toml")
     assert_same_place(standing, begun)
     assert len(standing.covered() ^ lying.covered()) > 0.05 * len(lying.covered())
+
+
+def from_the_mesh(number, *settings):
+    """The report's scene, its lines taken from the mesh."""
+    picture, _ = draw(folder(number) + "/draw.toml" if number == "29" else folder(number) + "/s1.toml",
+                      "--set", "edges=mesh_lines", *settings)
+    return picture
+
+
+@report
+def hidden_dashed_29():
+    # As an SVG: hidden lines in layers of their own, each dash a part of its path.
+    run("render", folder("29") + "/draw.toml", "--set", "edges=mesh_lines", "--set", "edges.hidden=3", "--output",
+        "out.svg")
+    svg = open("out.svg", encoding="utf-8").read()
+    layers = set(re.findall(r'inkscape:label="([^"]*)"', svg))
+    assert {"contours", "creases", "hidden-contours"} <= layers, layers
+    hidden = svg[svg.index('<g id="hidden-contours"') : svg.index("</g>", svg.index('<g id="hidden-contours"'))]
+    paths = re.findall(r' d="([^"]*)"', hidden)
+    # Of a brick the three edges at its far lower corner are hidden: dashed, since each is much longer than a dash.
+    assert sum(path.count("M") for path in paths) > 40, paths
+
+
+@report
+def thin_wires_34():
+    picture = from_the_mesh("34", "--set", "edges.width=1px")
+    # The cable hangs before nothing and the wall, from (94, 40) to (879, 5): ink in every column, and no gap.
+    dark = {x for x in range(96, 878) for y in range(picture.height // 3) if picture.at(x, y)[0] < 200}
+    assert dark == set(range(96, 878)), "the cable has gaps at %s" % sorted(set(range(96, 878)) - dark)[:9]
 
 
 def main():
