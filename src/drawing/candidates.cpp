@@ -38,6 +38,7 @@ public:
                 made.vertex[i] = end.number;
             }
             made.source = source;
+            made.isCurve = source == MeshLineSource::contours && isSmoothEdge(placed_, edge);
             describe(made, scene_, placed_, owner);
             made.component = placed_.firstComponent + placed_.edges->componentOf[edge.a];
             if (uses.size() == 1) made.face = placed_.firstTriangle + uses[0] / 3;

@@ -19,6 +19,7 @@ struct Candidate {
     std::array<std::uint32_t, 2> within{
         kNoVertex, kNoVertex};  ///< triangles that it lies in, besides those on its edge
     MeshLineSource source = MeshLineSource::contours;
+    bool isCurve = false;  ///< part of the contour of a surface that is curved there, or is meant to be
     std::uint32_t record = 0, instance = 0, part = 0, material = 0;  ///< as DrawnLine's
     std::uint32_t component = kNoVertex;                             ///< of its mesh: number among all
     std::uint32_t face = kNoVertex;                                  ///< of a border: the triangle beside it

@@ -3,15 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
 
+#include <cstdlib>
 namespace limn {
 namespace {
+double E(const char* n, double d) {
+    const char* v = getenv(n);
+    return v ? atof(v) : d;
+}
 
 constexpr std::uint32_t kNothing = ~std::uint32_t{0};
 
 /// What pieces of one line have in common.
 auto lookOf(const Candidate& candidate) {
-    return std::tuple(candidate.source, candidate.record, candidate.instance, candidate.part, candidate.material);
+    return std::tuple(
+        candidate.source, candidate.isCurve, candidate.record, candidate.instance, candidate.part, candidate.material);
 }
 
 /// An end of a piece: 2 · piece + 0 or 1.
@@ -39,7 +46,8 @@ public:
 
 private:
     std::uint64_t nodeOf(PieceEnd end) const { return pieces_[end / 2].node[end % 2]; }
-    std::tuple<MeshLineSource, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> look(PieceEnd end) const {
+    std::tuple<MeshLineSource, bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> look(
+        PieceEnd end) const {
         return lookOf(candidates_[pieces_[end / 2].candidate]);
     }
     /// From the end into the piece.
@@ -107,13 +115,14 @@ void joinAlike(std::vector<Span>& spans, int deepest) {
 }
 
 /// Hides what is too short between its neighbours to be seen, and shows what is hidden so briefly.
-void clean(std::vector<Span>& spans, int deepest, bool isClosed) {
+void clean(std::vector<Span>& spans, int deepest, bool isClosed, double shortest) {
     joinAlike(spans, deepest);
     for (const bool hides : {false, true}) {
         const std::size_t count = spans.size();
         for (std::size_t i = 0; i < count; ++i) {
             const bool isInner = isClosed ? count > 1 : i > 0 && i + 1 < count;
-            if (!isInner || spans[i].length >= kShortestPart || (spans[i].behind == 0) != hides) continue;
+            if (!isInner || spans[i].length >= (hides ? shortest : kShortestPart) || (spans[i].behind == 0) != hides)
+                continue;
             const Span &before = spans[(i + count - 1) % count], &after = spans[(i + 1) % count];
             if ((before.behind == 0) == hides || (after.behind == 0) == hides) continue;
             spans[i].behind = before.behind;
@@ -128,9 +137,9 @@ glm::dvec2 wayTo(const LinePoint& a, const LinePoint& b) { return b.place - a.pl
 /// shows it on because its facets are flat.
 void trimHook(std::vector<LinePoint>& points) {
     double length = 0;
-    for (std::size_t i = points.size() - 1; i >= 2 && length < kLongestFold; --i) {
+    for (std::size_t i = points.size() - 1; i >= 2 && length < E("TRIM", .5); --i) {
         length += glm::length(wayTo(points[i - 1], points[i]));
-        if (length < kLongestFold
+        if (length < E("TRIM", .5)
             && glm::dot(wayTo(points[i - 2], points[i - 1]), wayTo(points[i - 1], points[i])) < 0) {
             points.resize(i);
             return;
@@ -143,20 +152,24 @@ void append(std::vector<LinePoint>& points, const std::vector<LinePoint>& more) 
     std::size_t first = 0;
     if (points.size() > 1) {
         const glm::dvec2 way = wayTo(points[points.size() - 2], points.back());
-        while (first + 1 < more.size() && glm::dot(wayTo(points.back(), more[first]), way) < 0) ++first;
+        const auto isFold = [&](const LinePoint& point) {
+            const glm::dvec2 on = wayTo(points.back(), point);
+            return glm::dot(on, way) < 0 && glm::length(on) < E("FOLD", 1);
+        };
+        while (first + 1 < more.size() && isFold(more[first])) ++first;
     }
     points.insert(points.end(), more.begin() + static_cast<std::ptrdiff_t>(first), more.end());
 }
 
 /// Contours of a mesh fold where its facets are nearly seen from their edges: pieces of them hide one another, though
-/// the surface's own contour runs on. Folds no longer than kLongestFold are bridged, and hooks at cusps left out.
+/// the surface's own contour runs on. Folds no longer than E("FOLD",1) are bridged, and hooks at cusps left out.
 void unfold(std::vector<Span>& spans) {
     std::vector<Span> unfolded;
     for (auto& span : spans) {
         const std::size_t count = unfolded.size();
         const bool bridges = span.behind == 0 && count > 1 && unfolded[count - 1].behind > 0
-            && unfolded[count - 2].behind == 0 && unfolded[count - 1].length < 2 * kLongestFold
-            && glm::length(wayTo(unfolded[count - 2].points.back(), span.points.front())) < kLongestFold;
+            && unfolded[count - 2].behind == 0 && unfolded[count - 1].length < 2 * E("FOLD", 1)
+            && glm::length(wayTo(unfolded[count - 2].points.back(), span.points.front())) < E("FOLD", 1);
         if (!bridges) {
             unfolded.push_back(std::move(span));
             continue;
@@ -177,6 +190,66 @@ void unfold(std::vector<Span>& spans) {
     }
 }
 
+double lengthOf(const DrawnLine& line) {
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+        length += glm::length(wayTo(line.points[i], line.points[i + 1]));
+    return length;
+}
+
+/// Places near lines, up to kBesides.
+class Neighbourhood {
+public:
+    void add(const DrawnLine& line) {
+        for (std::size_t i = 0; i + (line.isClosed ? 0 : 1) < line.points.size(); ++i) {
+            const Way way{line.points[i].place, line.points[(i + 1) % line.points.size()].place};
+            const glm::ivec2 low = cellOf(glm::min(way.a, way.b) - kBeside),
+                             high = cellOf(glm::max(way.a, way.b) + kBeside);
+            for (int y = low.y; y <= high.y; ++y)
+                for (int x = low.x; x <= high.x; ++x) cells_[keyOf({x, y})].push_back(way);
+        }
+    }
+    bool has(const glm::dvec2& p) const {
+        const auto cell = cells_.find(keyOf(cellOf(p)));
+        return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), [&](const Way& way) {
+            const glm::dvec2 along = way.b - way.a;
+            const double squared = glm::dot(along, along),
+                         t = squared > 0 ? std::clamp(glm::dot(p - way.a, along) / squared, 0.0, 1.0) : 0;
+            return glm::distance(p, way.a + along * t) <= kBeside;
+        });
+    }
+
+private:
+    static constexpr double kCell = 4;
+    struct Way {
+        glm::dvec2 a, b;
+    };
+    static glm::ivec2 cellOf(const glm::dvec2& p) { return glm::ivec2(glm::floor(p / kCell)); }
+    static std::uint64_t keyOf(const glm::ivec2& cell) {
+        return std::uint64_t{static_cast<std::uint32_t>(cell.y)} << 32 | static_cast<std::uint32_t>(cell.x);
+    }
+    std::unordered_map<std::uint64_t, std::vector<Way>> cells_;
+};
+
+/// Drops short pieces of curves that run beside longer lines: of two facets that cross the contour nearly at once.
+void dropEchoes(std::vector<DrawnLine>& lines, const std::vector<char>& isCurve) {
+    std::vector<char> isShort(lines.size());
+    Neighbourhood longer;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        isShort[i] = isCurve[i] && lines[i].behind == 0 && lengthOf(lines[i]) < kLongestEcho;
+        if (!isShort[i] && lines[i].behind == 0) longer.add(lines[i]);
+    }
+    std::vector<DrawnLine> kept;
+    kept.reserve(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const bool isEcho = isShort[i]
+            && std::all_of(lines[i].points.begin(), lines[i].points.end(),
+                [&](const LinePoint& point) { return longer.has(point.place); });
+        if (!isEcho) kept.push_back(std::move(lines[i]));
+    }
+    lines = std::move(kept);
+}
+
 class Chainer {
 public:
     Chainer(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates, int deepest)
@@ -191,6 +264,7 @@ public:
             if (!isTaken_[end / 2] && links_[end] == kNothing) walk(end, false);
         for (PieceEnd end = 0; end < 2 * pieces_.size(); end += 2)
             if (!isTaken_[end / 2]) walk(end, true);
+        if (std::any_of(isCurve_.begin(), isCurve_.end(), [](char is) { return is; })) dropEchoes(lines_, isCurve_);
         return std::move(lines_);
     }
 
@@ -208,12 +282,14 @@ private:
             spans.back().add(piece.end[1 - end % 2]);
             end = links_[end ^ 1u];
         } while (end != kNothing && end != start);
-        clean(spans, deepest_, isClosed);
-        if (candidates_[pieces_[start / 2].candidate].source == MeshLineSource::contours && spans.size() > 1) {
+        const bool isCurve = candidates_[pieces_[start / 2].candidate].isCurve;
+        clean(spans, deepest_, isClosed, isCurve ? E("HIDE", .5) : kShortestPart);
+        if (isCurve && spans.size() > 1) {
             if (isClosed) beginWithLongest(spans);
             unfold(spans);
             joinAlike(spans, deepest_);
         }
+        if (isCurve && isClosed && spans.size() == 1 && spans[0].length < E("FOLD", 1)) return;  // a dimple of facets
         if (isClosed && spans.size() > 1) turn(spans);
         for (auto& span : spans)
             if (span.behind <= deepest_) put(std::move(span), start, isClosed && spans.size() == 1);
@@ -242,6 +318,7 @@ private:
             span.behind, isClosed, std::move(span.points)};
         if (isClosed) line.points.pop_back();
         lines_.push_back(std::move(line));
+        isCurve_.push_back(candidate.isCurve);
     }
 
     const std::vector<LinePiece>& pieces_;
@@ -250,6 +327,7 @@ private:
     Links links_;
     std::vector<char> isTaken_;
     std::vector<DrawnLine> lines_;
+    std::vector<char> isCurve_;  ///< parallel to them
 };
 
 }  // namespace

@@ -20,8 +20,11 @@ struct LinePiece {
 /// mesh's small folds beside its contour make many.
 inline constexpr double kShortestPart = 0.25;
 
-/// Folds of a contour that are shorter are no part of the surface's own contour, in pixels.
+/// Folds and loops of a curved surface's contour that are shorter come of its facets, in pixels.
 inline constexpr double kLongestFold = 2;
+
+/// Shorter pieces of a curved surface's contour are left out where they run within kBeside of a longer line; pixels.
+inline constexpr double kLongestEcho = 4, kBeside = 0.2;
 
 /// Removes the parts of pieces that lie on others in the picture, so that no line is drawn twice: hidden ones under
 /// visible ones, then those of the later source, then those that come later. Pieces behind more

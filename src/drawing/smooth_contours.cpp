@@ -139,6 +139,7 @@ private:
         }
         if (isFront[0] == isFront[1] && isFront[1] == isFront[2]) return false;
         describe(made, scene_, placed_, triangle);
+        made.isCurve = true;
         if (!scene_.scene().lineRecords[made.record].draws) return false;
         std::size_t end = 0;
         for (std::uint32_t k = 0; k < 3; ++k) {

@@ -70,7 +70,8 @@ def box(lo, hi, name, base):
 
 
 def model():
-    text = "mtllib model.mtl\n" + box((-1.5, 0, -0.5), (-0.5, 1, 0.5), "metre", 0) + box((0.25, 0, -0.5), (2, 1.75, 0.5), "block", 8)
+    text = "mtllib model.mtl\n" + box((-1.5, 0, -0.5), (-0.5, 1, 0.5), "metre", 0)
+    text += box((0.25, 0, -0.5), (2, 1.75, 0.5), "block", 8)
     text += box((-0.5, 0, -0.25), (0.25, 0.5, 0.25), "step", 16)
     rings, sides, base = 24, 48, 24
     text += "o ball\nusemtl ball\ns 1\n"

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <map>
 #include <random>
 #include <sstream>
@@ -218,6 +220,87 @@ TEST(MeshLines, endInJunctionsAndCuspsOnly) {
         for (const auto& line : lines) EXPECT_GT(lengthOf(line), 20) << toml(to);
     }
     EXPECT_GE(chains, 2 * directions().size() - 4);
+}
+
+double distanceTo(const std::vector<DrawnLine>& lines, const glm::dvec2& p) {
+    double least = 1e9;
+    for (const auto& line : lines)
+        for (std::size_t i = 0; i + (line.isClosed ? 0 : 1) < line.points.size(); ++i) {
+            const glm::dvec2 a = line.points[i].place, way = line.points[(i + 1) % line.points.size()].place - a;
+            const double squared = glm::dot(way, way),
+                         t = squared > 0 ? std::clamp(glm::dot(p - a, way) / squared, 0.0, 1.0) : 0;
+            least = std::min(least, glm::distance(p, a + way * t));
+        }
+    return least;
+}
+
+/// The middles of the pixel sides where a mesh ends, from a picture 16 times as fine, in pixels of the coarse one.
+std::vector<glm::dvec2> outlineOf(const LoadedScene& scene, int size) {
+    constexpr int kFine = 16;
+    const Picture p = draw(
+        makeConfig(
+            fmt::format("[image]\nsize = [{0}, {0}]\nsamples = 1\n[output]\naovs = ['object_id']\n", size * kFine)),
+        scene);
+    const Image& ids = p.aov("object_id");
+    std::vector<glm::dvec2> sides;
+    for (int y = 1; y < ids.height; ++y)
+        for (int x = 1; x < ids.width; ++x) {
+            const bool is = *ids.at(x, y) > 0;
+            if (is != (*ids.at(x - 1, y) > 0)) sides.emplace_back(x, ids.height - y - 0.5);
+            if (is != (*ids.at(x, y - 1) > 0)) sides.emplace_back(x + 0.5, ids.height - y);
+        }
+    for (auto& side : sides) side /= static_cast<double>(kFine);
+    return sides;
+}
+
+// Limit surfaces beside their outlines in pictures 16 × 16 times as fine. Every camera with LIMN_ALL_CAMERAS=1.
+TEST(MeshLines, ofSubdividedThingsAreTheirOutlines) {
+    const char* data = std::getenv("LIMN_TEST_DATA");
+    if (!data) GTEST_SKIP() << "LIMN_TEST_DATA names no folder";
+    constexpr int kCoarse = 128;
+    const auto all = directions();
+    const std::size_t step = std::getenv("LIMN_ALL_CAMERAS") ? 1 : 5;
+    std::size_t chains = 0, slivers = 0, points = 0, off = 0;
+    double worst = 0;
+    for (const auto* file : {"cages/spot_control_mesh", "cages/penguin_control_mesh", "cages/fish_control_mesh",
+             "osd_shapes/catmark_pawn", "osd_shapes/catmark_bishop", "osd_shapes/catmark_torus",
+             "osd_shapes/catmark_toroidal_tet", "osd_shapes/catmark_cube_creases0"}) {
+        const std::string path = fmt::format("{}/{}.obj", data, file);
+        if (!std::ifstream(path)) continue;
+        for (std::size_t i = 0; i < all.size(); i += step) {
+            const LoadedScene bare = loadScene(path, {.subdivide = 5});
+            const Bounds box = bare.bounds;
+            const LoadedScene scene = makeScene(
+                fmt::format(
+                    "[[mesh]]\nname = 'm'\nfile = '{}'\nsubdivision = {{ edge_length = '1px', level = 6 }}\n", path)
+                    + cameraToml(box.centre() + all[i] * box.diagonal() * 3.0, box.centre(),
+                        fmt::format("orthographic_height = {}", box.diagonal() * 1.1)),
+                {});
+            RenderConfig config = makeConfig(
+                fmt::format("[image]\nsize = [{0}, {0}]\nsamples = 1\n[[edges]]\ntechnique = 'mesh_lines'\n", kCoarse));
+            config.output.isVector = true;
+            const auto lines = draw(config, scene).frame.drawing->layers.front().lines;
+            for (const auto& p : outlineOf(scene, kCoarse)) {
+                const double distance = distanceTo(lines, p);
+                worst = std::max(worst, distance);
+                ++points;
+                off += distance > 0.3;
+            }
+            fmt::print("DBG {} {} off {} worst {:.2f} lines {} sliv {}\n", file, i, off, worst, lines.size(), slivers);
+            for (const auto& line : lines) {
+                if (line.source != MeshLineSource::contours) continue;
+                ++chains;
+                slivers += !line.isClosed && lengthOf(line) < 2;
+            }
+        }
+    }
+    fmt::print(
+        "{} points of outlines: the farthest {:.3f} pixels from a line, {} beyond 0.3; {} contours, {} shorter "
+        "than 2 pixels\n",
+        points, worst, off, chains, slivers);
+    EXPECT_GT(points, 10000u);
+    EXPECT_EQ(off, 0u);
+    EXPECT_EQ(slivers, 0u);
 }
 
 /// The same lines, whatever their order and where closed ones begin: sorted texts of rounded places.
