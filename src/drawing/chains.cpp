@@ -5,13 +5,8 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <cstdlib>
 namespace limn {
 namespace {
-double E(const char* n, double d) {
-    const char* v = getenv(n);
-    return v ? atof(v) : d;
-}
 
 constexpr std::uint32_t kNothing = ~std::uint32_t{0};
 
@@ -137,9 +132,9 @@ glm::dvec2 wayTo(const LinePoint& a, const LinePoint& b) { return b.place - a.pl
 /// shows it on because its facets are flat.
 void trimHook(std::vector<LinePoint>& points) {
     double length = 0;
-    for (std::size_t i = points.size() - 1; i >= 2 && length < E("TRIM", .5); --i) {
+    for (std::size_t i = points.size() - 1; i >= 2 && length < kShortestCurve; --i) {
         length += glm::length(wayTo(points[i - 1], points[i]));
-        if (length < E("TRIM", .5)
+        if (length < kShortestCurve
             && glm::dot(wayTo(points[i - 2], points[i - 1]), wayTo(points[i - 1], points[i])) < 0) {
             points.resize(i);
             return;
@@ -154,7 +149,7 @@ void append(std::vector<LinePoint>& points, const std::vector<LinePoint>& more) 
         const glm::dvec2 way = wayTo(points[points.size() - 2], points.back());
         const auto isFold = [&](const LinePoint& point) {
             const glm::dvec2 on = wayTo(points.back(), point);
-            return glm::dot(on, way) < 0 && glm::length(on) < E("FOLD", 1);
+            return glm::dot(on, way) < 0 && glm::length(on) < kLongestFold;
         };
         while (first + 1 < more.size() && isFold(more[first])) ++first;
     }
@@ -162,14 +157,14 @@ void append(std::vector<LinePoint>& points, const std::vector<LinePoint>& more) 
 }
 
 /// Contours of a mesh fold where its facets are nearly seen from their edges: pieces of them hide one another, though
-/// the surface's own contour runs on. Folds no longer than E("FOLD",1) are bridged, and hooks at cusps left out.
+/// the surface's own contour runs on. Folds no longer than kLongestFold are bridged, and hooks at cusps left out.
 void unfold(std::vector<Span>& spans) {
     std::vector<Span> unfolded;
     for (auto& span : spans) {
         const std::size_t count = unfolded.size();
         const bool bridges = span.behind == 0 && count > 1 && unfolded[count - 1].behind > 0
-            && unfolded[count - 2].behind == 0 && unfolded[count - 1].length < 2 * E("FOLD", 1)
-            && glm::length(wayTo(unfolded[count - 2].points.back(), span.points.front())) < E("FOLD", 1);
+            && unfolded[count - 2].behind == 0 && unfolded[count - 1].length < 2 * kLongestFold
+            && glm::length(wayTo(unfolded[count - 2].points.back(), span.points.front())) < kLongestFold;
         if (!bridges) {
             unfolded.push_back(std::move(span));
             continue;
@@ -283,13 +278,13 @@ private:
             end = links_[end ^ 1u];
         } while (end != kNothing && end != start);
         const bool isCurve = candidates_[pieces_[start / 2].candidate].isCurve;
-        clean(spans, deepest_, isClosed, isCurve ? E("HIDE", .5) : kShortestPart);
+        clean(spans, deepest_, isClosed, isCurve ? kShortestCurve : kShortestPart);
         if (isCurve && spans.size() > 1) {
             if (isClosed) beginWithLongest(spans);
             unfold(spans);
             joinAlike(spans, deepest_);
         }
-        if (isCurve && isClosed && spans.size() == 1 && spans[0].length < E("FOLD", 1)) return;  // a dimple of facets
+        if (isCurve && isClosed && spans.size() == 1 && spans[0].length < kLongestFold) return;  // a dimple of facets
         if (isClosed && spans.size() > 1) turn(spans);
         for (auto& span : spans)
             if (span.behind <= deepest_) put(std::move(span), start, isClosed && spans.size() == 1);

@@ -20,10 +20,11 @@ struct LinePiece {
 /// mesh's small folds beside its contour make many.
 inline constexpr double kShortestPart = 0.25;
 
-/// Folds and loops of a curved surface's contour that are shorter come of its facets, in pixels.
-inline constexpr double kLongestFold = 2;
+/// Of the contours of curved surfaces, which facets break up, in pixels: visible parts between hidden ones, and hooks
+/// at cusps, that are shorter are left out; folds that leave a smaller gap are bridged.
+inline constexpr double kShortestCurve = 0.5, kLongestFold = 1;
 
-/// Shorter pieces of a curved surface's contour are left out where they run within kBeside of a longer line; pixels.
+/// And pieces shorter than the first are left out where they run within the second of a longer line.
 inline constexpr double kLongestEcho = 4, kBeside = 0.2;
 
 /// Removes the parts of pieces that lie on others in the picture, so that no line is drawn twice: hidden ones under
