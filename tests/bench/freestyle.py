@@ -2,8 +2,9 @@
 
   lines FOLDER          black lines on white of every NAME.obj and NAME.camera in a folder, to NAME.other.png
   scene SCENE.toml CAMERA WIDTH HEIGHT OUT.png
-                        a scene of limn's; prints RENDER_S, the seconds of a second render, start-up and loading
-                        excluded
+                        a scene of limn's; prints RENDER_S, the seconds of a second render with Freestyle, PLAIN_S,
+                        that of one without lines, and LINE_ART_S, that of one with Line Art (Grease Pencil's), start-up
+                        and loading excluded
 """
 
 import math
@@ -126,7 +127,15 @@ else:
         "MATERIAL",
     )
     scene.render.filepath = out
-    bpy.ops.render.render()
-    start = time.time()
-    bpy.ops.render.render(write_still=True)
-    print("RENDER_S %.3f" % (time.time() - start))
+
+    def timed(name):
+        bpy.ops.render.render()
+        start = time.time()
+        bpy.ops.render.render(write_still=True)
+        print("%s %.3f" % (name, time.time() - start))
+
+    timed("RENDER_S")
+    scene.render.use_freestyle = False
+    timed("PLAIN_S")
+    bpy.ops.object.gpencil_add(type="LRT_SCENE")
+    timed("LINE_ART_S")

@@ -298,8 +298,8 @@ TEST(MeshLines, ofSubdividedThingsAreTheirOutlines) {
         "than 2 pixels\n",
         points, worst, off, chains, slivers);
     EXPECT_GT(points, 10000u);
-    // Facets as large as a pixel: what is bridged or left out of their folds costs up to half of one, and seldom.
-    EXPECT_LE(worst, 0.5);
+    // Facets as large as a pixel: what is bridged or left out of their folds costs up to 0.7 of one, and seldom.
+    EXPECT_LE(worst, 0.7);
     EXPECT_LE(static_cast<double>(off), 3e-4 * static_cast<double>(points));
     EXPECT_LE(static_cast<double>(slivers), 0.1 * static_cast<double>(chains));
 }
