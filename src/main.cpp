@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     app.fallthrough();
     cli::Chosen chosen;
     cli::addRender(app, chosen);
+    cli::addWatch(app, chosen);
     cli::addPlan(app, chosen);
     cli::addCheck(app, chosen);
     cli::addTechniques(app, chosen);

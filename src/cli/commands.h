@@ -14,6 +14,7 @@ namespace limn::cli {
 using Chosen = std::function<ExitCode()>;
 
 void addRender(CLI::App& app, Chosen& chosen);
+void addWatch(CLI::App& app, Chosen& chosen);
 void addPlan(CLI::App& app, Chosen& chosen);
 void addCheck(CLI::App& app, Chosen& chosen);
 void addTechniques(CLI::App& app, Chosen& chosen);

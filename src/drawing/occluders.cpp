@@ -168,6 +168,8 @@ struct Occluders::Tree {
     bool compare(Query& query, const Triangle& triangle) const;
     double touchingOf(const Query& query, const ViewedMesh& placed, const std::array<ViewedVertex, 3>& corner,
         std::size_t end, bool sharesVertex) const;
+    void hideBeyondHoles(Query& query, const Interval& hidden, const ViewedMesh& placed, std::uint32_t triangleOfMesh,
+        const Mask& mask, const std::array<std::array<double, 2>, 3>& sides) const;
     void findContinued(Query& query, const std::array<ViewedVertex, 3>& corner, const glm::dvec3& normal, double sign,
         const std::array<double, 2>& height) const;
 };
@@ -281,9 +283,10 @@ bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
     if (line.face != kNoVertex && number != line.face) findContinued(query, corner, normal, sign, height);
     Interval hidden{0, 1};
     hidden.keepAbove(below[0], below[1]);
+    std::array<std::array<double, 2>, 3> sides;
     for (std::size_t i = 0; i < 3 && !hidden.isEmpty(); ++i) {
         const ViewedVertex &p = corner[i], &q = corner[(i + 1) % 3];
-        std::array<double, 2> inside;
+        std::array<double, 2>& inside = sides[i];
         for (std::size_t e = 0; e < 2; ++e) {
             const bool isOnEdge =
                 line.vertex[e] != kNoVertex && (line.vertex[e] == p.number || line.vertex[e] == q.number);
@@ -292,9 +295,60 @@ bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
         hidden.keepAbove(inside[0], inside[1]);
     }
     if (hidden.isEmpty()) return false;
+    if (const Mask* mask = scene.maskOf(placed, number - placed.firstTriangle)) {
+        hideBeyondHoles(query, hidden, placed, number - placed.firstTriangle, *mask, sides);
+        return false;
+    }
     query.steps.emplace_back(hidden.from, 1);
     query.steps.emplace_back(hidden.to, -1);
     return query.deepest == 0 && hidden.from <= query.part.from && hidden.to >= query.part.to;
+}
+
+/// Hides what a triangle with holes hides: looks at the mask every half pixel, and halves in on where alpha is one
+/// half.
+void Occluders::Tree::hideBeyondHoles(Query& query, const Interval& hidden, const ViewedMesh& placed,
+    std::uint32_t triangleOfMesh, const Mask& mask, const std::array<std::array<double, 2>, 3>& sides) const {
+    const TriMesh& mesh = *placed.mesh;
+    std::array<glm::dvec2, 3> uv;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& indices = mesh.uvIndices.empty() ? mesh.indices : mesh.uvIndices;
+        uv[k] = glm::dvec2(mesh.uvs[indices[std::size_t{3} * triangleOfMesh + k]] * mask.scale + mask.offset);
+    }
+    const auto isSolid = [&](double t) {
+        // The side opposite to a corner is its barycentric coordinate, but for a factor.
+        std::array<double, 3> weight;
+        for (std::size_t k = 0; k < 3; ++k)
+            weight[k] = std::max(0.0, glm::mix(sides[(k + 1) % 3][0], sides[(k + 1) % 3][1], t));
+        const double sum = weight[0] + weight[1] + weight[2];
+        if (!(sum > 0)) return true;
+        return alphaAt(mask, glm::vec2((uv[0] * weight[0] + uv[1] * weight[1] + uv[2] * weight[2]) / sum)) >= 0.5f;
+    };
+    const auto placeAt = [&](double t) { return scene.projector().place(glm::mix(query.end[0], query.end[1], t)); };
+    const double from = std::max(hidden.from, query.part.from), to = std::min(hidden.to, query.part.to);
+    if (!(from < to)) return;
+    const int count = std::clamp(static_cast<int>(2 * glm::distance(placeAt(from), placeAt(to))) + 2, 2, 1 << 16);
+    double begin = from, last = from;
+    bool wasSolid = isSolid(from);
+    const auto hide = [&](double until) {
+        query.steps.emplace_back(begin, 1);
+        query.steps.emplace_back(until, -1);
+    };
+    for (int i = 1; i <= count; ++i) {
+        const double t = i == count ? to : from + (to - from) * i / count;
+        const bool is = isSolid(t);
+        if (is != wasSolid) {
+            double unchanged = last, changed = t;
+            for (int k = 0; k < 12; ++k) {
+                const double middle = 0.5 * (unchanged + changed);
+                (isSolid(middle) == is ? changed : unchanged) = middle;
+            }
+            if (wasSolid) hide(changed);
+            begin = changed;
+            wasSolid = is;
+        }
+        last = t;
+    }
+    if (wasSolid) hide(to);
 }
 
 /// A border is none where another surface goes on in its triangle's plane: walls of many pieces, whose vertices do not

@@ -21,6 +21,7 @@ ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> m
         placed.mesh = meshOf[i];
         placed.edges = edgesOf[i];
         placed.instance = &scene.instances[i];
+        if (!placed.mesh->uvs.empty()) placed.masks = masks_.of(scene, scene.instances[i]);
         placed.firstVertex = static_cast<std::uint32_t>(vertices);
         placed.firstTriangle = static_cast<std::uint32_t>(triangleCount_);
         placed.firstComponent = static_cast<std::uint32_t>(components);

@@ -4,6 +4,7 @@
 #include "drawing/edge_table.h"
 #include "graph/graph.h"
 #include "picture/view.h"
+#include "rays/holes.h"
 #include "stage/scene_at.h"
 
 #include <array>
@@ -39,6 +40,7 @@ struct ViewedMesh {
     std::uint32_t firstVertex = 0;     ///< number of its first position among all
     std::uint32_t firstTriangle = 0;   ///< number of its first triangle among all
     std::uint32_t firstComponent = 0;  ///< number of its first component among all
+    std::vector<const Mask*> masks;    ///< of its materials; empty where none cuts holes
     glm::dmat3 viewFromMesh{1};        ///< of directions
     glm::dvec3 pivot{0};               ///< view space
     glm::dmat3 normalMatrix{1};        ///< view space from mesh space, for directions across surfaces
@@ -73,11 +75,17 @@ public:
         return mesh.viewFromMesh * glm::dvec3(p) + mesh.pivot;
     }
     const glm::dvec3& at(std::uint32_t vertex) const { return at_[vertex]; }
+    /// What cuts holes into a triangle; null: nothing.
+    const Mask* maskOf(const ViewedMesh& mesh, std::uint32_t triangleOfMesh) const {
+        if (mesh.masks.empty()) return nullptr;
+        return mesh.masks[mesh.mesh->triangleMaterial.empty() ? 0 : mesh.mesh->triangleMaterial[triangleOfMesh]];
+    }
     std::array<ViewedVertex, 3> corners(const ViewedMesh& mesh, std::uint32_t triangleOfMesh) const;
 
 private:
     const SceneAt& scene_;
     Projector projector_;
+    HoleMasks masks_;
     std::vector<ViewedMesh> meshes_;  ///< those with triangles or lines
     std::vector<glm::dvec3> at_;      ///< of each vertex; view space, normalized units
     std::size_t triangleCount_ = 0;

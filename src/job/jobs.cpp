@@ -123,7 +123,8 @@ std::vector<Job> readJobs(const RunOptions& options) {
 }
 
 std::vector<int> framesOf(const Job& job, const RunOptions& options, const LoadedScene& loaded) {
-    const std::vector<int> frames = framesOf(job.config, options.frames, loaded.scene.frames);
+    std::vector<int> frames = framesOf(job.config, options.frames, loaded.scene.frames);
+    if (options.firstFrameOnly) frames.resize(1);
     if (frames.size() > 1 && !hasFrameNumber(job.output))
         throw Error(ExitCode::usage, {job.output.string()},
             fmt::format("{} frames would be written to one file", frames.size()),

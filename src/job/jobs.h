@@ -14,15 +14,16 @@ namespace limn {
 struct RunOptions {
     std::vector<std::string> configs;
     ConfigOverrides overrides;
-    std::string output;       ///< a file, a folder, or a pattern with {config} and ####; empty: from the configs
-    std::string frames;       ///< a list of frames; empty: all declared ones
-    std::string chunk;        ///< "I/N": the I-th of N equal parts of each config's frames; empty: all
-    std::string crop;         ///< X,Y,W,H in pixels from the upper left; empty: everything
-    std::string stats;        ///< file for the report of the run; empty: none
-    bool strict = false;      ///< values that are not finite end the run
-    bool keepGoing = false;   ///< a frame that fails does not end the run
-    bool resume = false;      ///< keeps frames whose files are whole and current
-    double frameTimeout = 0;  ///< seconds after which a frame counts as failed; 0: never
+    std::string output;           ///< a file, a folder, or a pattern with {config} and ####; empty: from the configs
+    std::string frames;           ///< a list of frames; empty: all declared ones
+    bool firstFrameOnly = false;  ///< of those
+    std::string chunk;            ///< "I/N": the I-th of N equal parts of each config's frames; empty: all
+    std::string crop;             ///< X,Y,W,H in pixels from the upper left; empty: everything
+    std::string stats;            ///< file for the report of the run; empty: none
+    bool strict = false;          ///< values that are not finite end the run
+    bool keepGoing = false;       ///< a frame that fails does not end the run
+    bool resume = false;          ///< keeps frames whose files are whole and current
+    double frameTimeout = 0;      ///< seconds after which a frame counts as failed; 0: never
     ProgressForm progress = ProgressForm::plain;
     SessionOptions session;
     /// Chooses the settings of a config that asks for a quality, for its output.

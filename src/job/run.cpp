@@ -44,9 +44,10 @@ constexpr std::size_t kMostKept = std::size_t{256} << 20;
 
 class Run {
 public:
-    explicit Run(const RunOptions& options)
+    Run(const RunOptions& options, Session& session, bool keepsScenes)
         : options_(options),
-          session_(options.session),
+          session_(session),
+          keepsScenes_(keepsScenes),
           progress_(options.progress, std::chrono::duration<double>(options.frameTimeout)) {}
 
     ExitCode draw() {
@@ -100,7 +101,7 @@ private:
             ahead();
             const bool isDone = std::none_of(jobs.begin() + static_cast<std::ptrdiff_t>(j) + 1, jobs.end(),
                 [&](const Job& later) { return later.config.scene == jobs[j].config.scene; });
-            if (isDone) session_.forget(jobs[j].config);
+            if (isDone && !keepsScenes_) session_.forget(jobs[j].config);
         }
         behind_.wait();
         const auto& messages = session_.renderer().device().debugMessages();
@@ -291,7 +292,8 @@ private:
 
     const RunOptions& options_;
     Clock::time_point start_ = Clock::now();
-    Session session_;
+    Session& session_;
+    bool keepsScenes_;
     Statistics statistics_;
     Progress progress_;
     Flicker flicker_;  ///< of the thread that encodes
@@ -309,6 +311,11 @@ private:
 
 }  // namespace
 
-ExitCode runJobs(const RunOptions& options) { return Run(options).draw(); }
+ExitCode runJobs(const RunOptions& options) {
+    Session session(options.session);
+    return Run(options, session, false).draw();
+}
+
+ExitCode runJobs(const RunOptions& options, Session& session) { return Run(options, session, true).draw(); }
 
 }  // namespace limn

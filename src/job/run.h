@@ -9,5 +9,7 @@ namespace limn {
 /// before the first frame. Returns done; with `keepGoing` also someFramesFailed, or the first frame's code if all
 /// failed.
 ExitCode runJobs(const RunOptions& options);
+/// The same in a session that goes on: it keeps its scenes and its device.
+ExitCode runJobs(const RunOptions& options, Session& session);
 
 }  // namespace limn

@@ -65,6 +65,24 @@ void Session::forget(const RenderConfig& config) {
     stamps_.erase(nameOf(config));
 }
 
+void Session::forgetAll() {
+    meshes_ = {};
+    if (renderer_) renderer_->await({});
+    scenes_.clear();
+    begun_.clear();
+    stamps_.clear();
+}
+
+void Session::forgetChanged() {
+    if (!changedFiles().empty()) forgetAll();
+}
+
+std::map<std::filesystem::path, Session::Stamp> Session::files() const {
+    std::map<std::filesystem::path, Stamp> all;
+    for (const auto& [scene, stamps] : stamps_) all.insert(stamps.begin(), stamps.end());
+    return all;
+}
+
 std::vector<std::filesystem::path> Session::changedFiles() const {
     std::set<std::filesystem::path> changed;
     for (const auto& [scene, stamps] : stamps_)

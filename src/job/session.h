@@ -35,6 +35,15 @@ public:
     const LoadedScene& load(const RenderConfig& config);
     /// Forgets the scene of a config and frees its memory.
     void forget(const RenderConfig& config);
+    /// Forgets all scenes; or only where a file of one has changed since it was read.
+    void forgetAll();
+    void forgetChanged();
+
+    /// Size and time of a file; nullopt where it is gone.
+    using Stamp = std::optional<std::pair<std::uintmax_t, std::filesystem::file_time_type>>;
+    static Stamp stampOf(const std::filesystem::path& file);
+    /// The files of loaded scenes and their meshes as they were read.
+    std::map<std::filesystem::path, Stamp> files() const;
     /// The files of loaded scenes and their meshes that have changed since.
     std::vector<std::filesystem::path> changedFiles() const;
 
@@ -60,10 +69,6 @@ private:
         return {config.scene.string(), config.meshFile.subdivide, config.meshFile.up};
     }
     using Loading = std::shared_future<std::shared_ptr<const LoadedScene>>;
-
-    /// Size and time of a file; nullopt where it is gone.
-    using Stamp = std::optional<std::pair<std::uintmax_t, std::filesystem::file_time_type>>;
-    static Stamp stampOf(const std::filesystem::path& file);
 
     SessionOptions options_;
     std::unique_ptr<Renderer> renderer_;

@@ -1,7 +1,7 @@
 #include "rays/ray_scene.h"
 
 #include "base/error.h"
-#include "image/texture.h"
+#include "rays/holes.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
@@ -40,34 +40,11 @@ Tree makeScene(RTCDevice device) {
     return scene;
 }
 
-/// The image that cuts a material's holes.
-struct Mask {
-    const Image* image;
-    glm::vec2 scale, offset;  ///< of texture coordinates
-    bool repeats, isSharp;
-};
-
 /// Data of Embree's filter, which lets rays through the holes of a mesh.
 struct Holes {
     std::vector<const Mask*> mask;  ///< of each triangle; null: it has none
     std::vector<glm::vec2> uvs;     ///< three per triangle, in the mask's coordinates
 };
-
-float alphaAt(const Mask& mask, glm::vec2 uv) {
-    // Bilinear as in shaders/lib/texture.glsl; the nearest texel where texels are sharp.
-    const Image& image = *mask.image;
-    const glm::ivec2 count(image.width, image.height);
-    const glm::vec2 inside = mask.repeats ? uv - glm::floor(uv) : glm::clamp(uv, 0.0f, 1.0f),
-                    at = inside * glm::vec2(count) - 0.5f, cell = glm::floor(at);
-    const glm::vec2 f = mask.isSharp ? glm::floor(at - cell + 0.5f) : at - cell;
-    const auto texel = [&](int x, int y) {
-        const glm::ivec2 place = glm::ivec2(cell) + glm::ivec2(x, y);
-        const glm::ivec2 known =
-            mask.repeats ? (place % count + count) % count : glm::clamp(place, glm::ivec2(0), count - glm::ivec2(1));
-        return image.at(known.x, known.y)[3];
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
-}
 
 void ignoreHoles(const RTCFilterFunctionNArguments* call) {
     const auto& holes = *static_cast<const Holes*>(call->geometryUserPtr);
@@ -113,29 +90,8 @@ struct RayScene::Trees {
     TreeDevice device;
     std::vector<Tree> shared;
     Tree top;
-    std::map<std::string, Image> images;  ///< of holes, by their files
-    std::map<std::uint32_t, Mask> masks;  ///< by the number of the material
+    HoleMasks masks;
     std::vector<std::unique_ptr<Holes>> holes;
-
-    /// The mask of each of the mesh's materials, as an instance shows it; empty where none cuts holes.
-    std::vector<const Mask*> masksOf(const SceneAt& scene, const DrawInstance& instance) {
-        std::vector<const Mask*> list;
-        for (const auto number : instance.materials) {
-            const Material& material = scene.materials[number];
-            if (material.cutout.empty()) {
-                list.push_back(nullptr);
-                continue;
-            }
-            auto [image, isNew] = images.try_emplace(material.cutout);
-            if (isNew) image->second = readTexture("", material.cutout);
-            const glm::ivec2 size(image->second.width, image->second.height);
-            const Mask mask{&image->second, material.textureScale, material.textureOffset, material.textureRepeats,
-                hasSharpTexels(material, size)};
-            list.push_back(&masks.try_emplace(number, mask).first->second);
-        }
-        if (std::all_of(list.begin(), list.end(), [](const Mask* mask) { return !mask; })) list.clear();
-        return list;
-    }
 
     Holes* holesOf(const TriMesh& mesh, const std::vector<const Mask*>& maskOf) {
         if (maskOf.empty()) return nullptr;
@@ -166,7 +122,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
     std::vector<Look> looks;
     std::map<Look, int> uses;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        ++uses[looks.emplace_back(meshOf[i], trees_->masksOf(scene, scene.instances[i]))];
+        ++uses[looks.emplace_back(meshOf[i], trees_->masks.of(scene, scene.instances[i]))];
     std::map<Look, RTCScene> shared;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const TriMesh& mesh = *meshOf[i];

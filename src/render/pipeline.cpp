@@ -178,6 +178,7 @@ TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, c
     };
     if (!averaged.empty()) result.sampling = {1, config.image.samples};
     if (config.output.isVector) result.forVectors = SceneData::triangles | SceneData::normals;
+    if (config.output.isVector && facts.cutouts) result.forVectors = result.forVectors | SceneData::uvs;
     // The first pipelines tell the guard band's width, and whether a finer raster is useful.
     build();
     result.guard = std::max(result.averaged.plan.halo(), result.centre ? result.centre->plan.halo() : 0);

@@ -1,5 +1,6 @@
 // Lines from the mesh: as polylines, against projections by hand, and under changes that must not change them.
 
+#include "base/file.h"
 #include "drawing/drawing.h"
 #include "support/bench.h"
 
@@ -301,7 +302,7 @@ TEST(MeshLines, ofSubdividedThingsAreTheirOutlines) {
     // Facets as large as a pixel: what is bridged or left out of their folds costs up to 0.7 of one, and seldom.
     EXPECT_LE(worst, 0.7);
     EXPECT_LE(static_cast<double>(off), 3e-4 * static_cast<double>(points));
-    EXPECT_LE(static_cast<double>(slivers), 0.1 * static_cast<double>(chains));
+    EXPECT_LE(static_cast<double>(slivers), 0.15 * static_cast<double>(chains));
 }
 
 /// The same lines, whatever their order and where closed ones begin: sorted texts of rounded places.
@@ -375,6 +376,30 @@ TEST(MeshLines, ofIntersectionsLieOnBothSurfaces) {
     }
     EXPECT_NEAR(length, 2 * std::acos(-1.0) * radius, 2);
     for (const auto& line : linesOf(scene, "intersections = 0")) EXPECT_NE(line.source, MeshLineSource::intersections);
+}
+
+TEST(MeshLines, areSeenThroughHoles) {
+    // A card, and before it one of twice its size, whose lower half is a hole: what shows is what lies there.
+    TemporaryFolder folder;
+    Image half{64, 64, 4, std::vector<float>(std::size_t{64} * 64 * 4, 1.0f)};
+    for (int y = 32; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) std::fill_n(half.at(x, y), 4, 0.0f);
+    const Layer layer{"beauty", {"R", "G", "B", "A"}, true, false, half};
+    const auto path = folder.path() / "half.png";
+    replaceFile(path, encodeImage(*imageFormat(path), {&layer, 1}, {}, {}));
+    const std::string front =
+        "v -1.6 -1.6 1\nv 1.6 -1.6 1\nv 1.6 1.6 1\nv -1.6 1.6 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "usemtl half\nf 1/1 2/2 3/3 4/4\n";
+    const std::string scene = "[[mesh]]\nname = 'a'\nfile = 'a.obj'\n[[mesh]]\nname = 'b'\nfile = 'b.obj'\n"
+        + fmt::format("[[material]]\nname = 'half'\ncutout = '{}'\n", path.string())
+        + "[[instance]]\nmesh = 'a'\n[[instance]]\nmesh = 'b'\nmaterial = 'half'\n" + kFront;
+    const LoadedScene both = makeScene(
+        scene, {{"a.obj", quadObj({-0.8, -0.8, 0}, {0.8, -0.8, 0}, {0.8, 0.8, 0}, {-0.8, 0.8, 0})}, {"b.obj", front}});
+    // 1.6 of its lower edge and 0.8 of each side; alpha is one half where the texels meet, at the middle.
+    double length = 0;
+    for (const auto& line : linesOf(both))
+        if (line.instance == 0) length += lengthOf(line);
+    EXPECT_NEAR(length, 160 + 2 * 80, 0.5);
 }
 
 TEST(MeshLines, ofDashesBeginAndEndWithOne) {

@@ -144,6 +144,7 @@ void build(EffectBuilder& graph, const Params& params) {
     pass.needs = SceneData::triangles;
     for (const auto source : {MeshLineSource::contours, MeshLineSource::creases})
         if (request.wanted[static_cast<std::size_t>(source)]) pass.needs = pass.needs | SceneData::normals;
+    if (graph.scene().cutouts) pass.needs = pass.needs | SceneData::uvs;
     const auto below = graph.find(aov::edges);
     if (below) pass.reads = {{"layersBelow", *below}};
     pass.work = [look = look, request = request, hasBelow = below.has_value()](HostWork& work) {
