@@ -339,8 +339,8 @@ void Occluders::Tree::hideBeyondHoles(Query& query, const Interval& hidden, cons
         if (is != wasSolid) {
             double unchanged = last, changed = t;
             for (int k = 0; k < 12; ++k) {
-                const double middle = 0.5 * (unchanged + changed);
-                (isSolid(middle) == is ? changed : unchanged) = middle;
+                const double halfway = 0.5 * (unchanged + changed);
+                (isSolid(halfway) == is ? changed : unchanged) = halfway;
             }
             if (wasSolid) hide(changed);
             begin = changed;
