@@ -26,6 +26,8 @@ public:
     std::optional<Candidate> candidate(const TriangleEdge& edge) const {
         std::vector<std::uint32_t> doubled;
         const Uses uses = distinctUses(edge, doubled);
+        const auto turnsAway = [&](std::uint32_t corner) { return scene_.turnsAway(placed_, corner / 3); };
+        if (request_.deepest == 0 && std::all_of(uses.begin(), uses.end(), turnsAway)) return std::nullopt;
         const std::uint32_t owner = ownerOf(uses);
         const LineRecord& record = recordOf(owner);
         if (!record.draws) return std::nullopt;

@@ -1,7 +1,10 @@
 #include "drawing/chains.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <unordered_map>
 
@@ -11,9 +14,10 @@ namespace {
 constexpr std::uint32_t kNothing = ~std::uint32_t{0};
 
 /// What pieces of one line have in common.
-auto lookOf(const Candidate& candidate) {
-    return std::tuple(
-        candidate.source, candidate.isCurve, candidate.record, candidate.instance, candidate.part, candidate.material);
+using Look = std::tuple<MeshLineSource, bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+Look lookOf(const Candidate& candidate) {
+    return {
+        candidate.source, candidate.isCurve, candidate.record, candidate.instance, candidate.part, candidate.material};
 }
 
 /// An end of a piece: 2 · piece + 0 or 1.
@@ -24,16 +28,29 @@ class Links {
 public:
     Links(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates)
         : pieces_(pieces), candidates_(candidates), linked_(2 * pieces.size(), kNothing) {
-        std::vector<PieceEnd> ends(2 * pieces.size());
-        for (PieceEnd i = 0; i < ends.size(); ++i) ends[i] = i;
-        const auto keyOf = [&](PieceEnd end) { return std::tuple(nodeOf(end), look(end)); };
-        std::sort(ends.begin(), ends.end(),
-            [&](PieceEnd a, PieceEnd b) { return keyOf(a) != keyOf(b) ? keyOf(a) < keyOf(b) : a < b; });
+        // Looks as numbers, so that ends are sorted fast.
+        std::map<Look, std::uint32_t> looks;
+        struct End {
+            std::uint64_t node;
+            std::uint32_t look;
+            PieceEnd end;
+            auto operator<=>(const End&) const = default;
+        };
+        std::vector<End> ends;
+        ends.reserve(2 * pieces.size());
+        for (PieceEnd i = 0; i < 2 * pieces.size(); ++i) {
+            if (nodeOf(i) == kNoNode) continue;
+            const auto known = looks.try_emplace(lookOf(candidates[pieces[i / 2].candidate]), looks.size());
+            ends.push_back({nodeOf(i), known.first->second, i});
+        }
+        tbb::parallel_sort(ends);
+        std::vector<PieceEnd> together;
         for (std::size_t i = 0; i < ends.size();) {
-            std::size_t after = i;
-            while (after < ends.size() && keyOf(ends[after]) == keyOf(ends[i])) ++after;
-            if (nodeOf(ends[i]) != kNoNode) join(std::span(ends).subspan(i, after - i));
-            i = after;
+            together.clear();
+            const End& first = ends[i];
+            for (; i < ends.size() && ends[i].node == first.node && ends[i].look == first.look; ++i)
+                together.push_back(ends[i].end);
+            join(together);
         }
     }
 
@@ -41,10 +58,6 @@ public:
 
 private:
     std::uint64_t nodeOf(PieceEnd end) const { return pieces_[end / 2].node[end % 2]; }
-    std::tuple<MeshLineSource, bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> look(
-        PieceEnd end) const {
-        return lookOf(candidates_[pieces_[end / 2].candidate]);
-    }
     /// From the end into the piece.
     glm::dvec2 wayFrom(PieceEnd end) const {
         const auto& piece = pieces_[end / 2];

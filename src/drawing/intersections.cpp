@@ -39,28 +39,12 @@ struct Tree {
     }
 };
 
-/// The components of a mesh of which only triangles that face the camera can be seen: on which side that is.
-std::vector<int> oneSided(const ViewedScene& scene, const ViewedMesh& placed) {
-    const glm::dvec3 eye = glm::inverse(placed.viewFromMesh) * -placed.pivot;
-    std::vector<int> side;
-    for (const auto& component : placed.edges->components) {
-        const bool isInside = !scene.projector().isParallel && glm::all(glm::greaterThanEqual(eye, component.box.lo))
-            && glm::all(glm::lessThanEqual(eye, component.box.hi));
-        side.push_back(isInside ? 0 : component.outward * (glm::determinant(placed.viewFromMesh) < 0 ? -1 : 1));
-    }
-    return side;
-}
-
 void addLeaves(Tree& tree, bool withHidden) {
     for (std::uint32_t i = 0; i < tree.scene.meshes().size(); ++i) {
         const ViewedMesh& placed = tree.scene.meshes()[i];
-        const std::vector<int> sides = oneSided(tree.scene, placed);
         for (std::uint32_t t = 0; t < placed.mesh->triangleCount(); ++t) {
+            if (!withHidden && tree.scene.turnsAway(placed, t)) continue;
             const auto corner = tree.scene.corners(placed, t);
-            const int side = sides[placed.edges->componentOf[corner[0].number - placed.firstVertex]];
-            const glm::dvec3 n = glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
-            const double facing = side * (tree.scene.projector().isParallel ? n.z : -glm::dot(n, corner[0].at));
-            if (facing < 0 && !withHidden) continue;
             tree.leaves.push_back(
                 {placed.firstTriangle + t, i, {corner[0].number, corner[1].number, corner[2].number}});
         }

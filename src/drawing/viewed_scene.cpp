@@ -12,6 +12,27 @@ Projector::Projector(const View& view)
       rayOffset(view.rayOffset - view.rayScale * view.samplePlace),
       nearest(view.near) {}
 
+/// ViewedMesh::seenWinding.
+static std::vector<int> seenWindingOf(const ViewedMesh& placed, bool isParallel) {
+    const glm::dvec3 eye = glm::inverse(placed.viewFromMesh) * -placed.pivot;
+    std::vector<int> winding;
+    winding.reserve(placed.edges->components.size());
+    for (const auto& component : placed.edges->components) {
+        const bool isInside = !isParallel && glm::all(glm::greaterThanEqual(eye, component.box.lo))
+            && glm::all(glm::lessThanEqual(eye, component.box.hi));
+        winding.push_back(isInside ? 0 : component.outward * (glm::determinant(placed.viewFromMesh) < 0 ? -1 : 1));
+    }
+    return winding;
+}
+
+bool ViewedScene::turnsAway(const ViewedMesh& mesh, std::uint32_t triangleOfMesh) const {
+    const auto corner = corners(mesh, triangleOfMesh);
+    const int winding = mesh.seenWinding[mesh.edges->componentOf[corner[0].number - mesh.firstVertex]];
+    if (winding == 0) return false;
+    const glm::dvec3 n = glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
+    return winding * (projector_.isParallel ? n.z : -glm::dot(n, corner[0].at)) < 0;
+}
+
 ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf,
     std::span<const TriangleEdges* const> edgesOf, const View& view)
     : scene_(scene), projector_(view) {
@@ -37,6 +58,7 @@ ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> m
         const glm::dmat3 linear = view.viewFromRelative * glm::dmat3(world);
         placed.viewFromMesh = linear;
         placed.pivot = view.viewFromRelative * (glm::dvec3(world * glm::dvec4(placed.mesh->pivot, 1)) - view.eye);
+        placed.seenWinding = seenWindingOf(placed, projector_.isParallel);
         placed.normalMatrix = glm::dmat3(
             glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
         if (glm::determinant(linear) < 0) placed.normalMatrix = -placed.normalMatrix;

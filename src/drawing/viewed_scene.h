@@ -40,10 +40,12 @@ struct ViewedMesh {
     std::uint32_t firstVertex = 0;     ///< number of its first position among all
     std::uint32_t firstTriangle = 0;   ///< number of its first triangle among all
     std::uint32_t firstComponent = 0;  ///< number of its first component among all
-    std::vector<const Mask*> masks;    ///< of its materials; empty where none cuts holes
-    glm::dmat3 viewFromMesh{1};        ///< of directions
-    glm::dvec3 pivot{0};               ///< view space
-    glm::dmat3 normalMatrix{1};        ///< view space from mesh space, for directions across surfaces
+    /// Of each component: the winding (1: counter-clockwise) of those of its triangles that can be seen; 0: of all.
+    std::vector<int> seenWinding;
+    std::vector<const Mask*> masks;  ///< of its materials; empty where none cuts holes
+    glm::dmat3 viewFromMesh{1};      ///< of directions
+    glm::dvec3 pivot{0};             ///< view space
+    glm::dmat3 normalMatrix{1};      ///< view space from mesh space, for directions across surfaces
 };
 
 /// A vertex: its number among all, the same for all that lie in one place of a mesh.
@@ -80,6 +82,9 @@ public:
         if (mesh.masks.empty()) return nullptr;
         return mesh.masks[mesh.mesh->triangleMaterial.empty() ? 0 : mesh.mesh->triangleMaterial[triangleOfMesh]];
     }
+    /// Is a triangle part of a closed surface that is seen from outside, and turned away from the eye? It cannot be
+    /// seen.
+    bool turnsAway(const ViewedMesh& mesh, std::uint32_t triangleOfMesh) const;
     std::array<ViewedVertex, 3> corners(const ViewedMesh& mesh, std::uint32_t triangleOfMesh) const;
 
 private:
