@@ -133,6 +133,17 @@ std::string jsonText(std::string_view text) {
     return result + '"';
 }
 
+std::string repairedText(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = std::max<std::size_t>(utf8Length(text), 1);
+        const bool isBad = utf8Length(text) == 0 || static_cast<unsigned char>(text.front()) < 0x20;
+        result += isBad ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
+        text.remove_prefix(length);
+    }
+    return result;
+}
+
 std::string bytesText(std::uint64_t bytes) {
     if (bytes < 1024) return fmt::format("{} B", bytes);
     const char* units[] = {"KiB", "MiB", "GiB", "TiB"};

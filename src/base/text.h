@@ -39,6 +39,9 @@ std::string numberText(double value);
 /// A JSON string literal, quotes included.
 std::string jsonText(std::string_view text);
 
+/// The text as XML and PDF may hold it: bytes that are no UTF-8, and control characters, become U+FFFD.
+std::string repairedText(std::string_view text);
+
 /// Text for a shell, quoted where necessary.
 std::string shellText(const std::string& text);
 

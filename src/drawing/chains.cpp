@@ -211,10 +211,19 @@ public:
     void add(const DrawnLine& line) {
         for (std::size_t i = 0; i + (line.isClosed ? 0 : 1) < line.points.size(); ++i) {
             const Way way{line.points[i].place, line.points[(i + 1) % line.points.size()].place};
-            const glm::ivec2 low = cellOf(glm::min(way.a, way.b) - kBeside),
-                             high = cellOf(glm::max(way.a, way.b) + kBeside);
-            for (int y = low.y; y <= high.y; ++y)
-                for (int x = low.x; x <= high.x; ++x) cells_[keyOf({x, y})].push_back(way);
+            // Cells along the way, and those beside them that kBeside reaches.
+            const int steps = static_cast<int>(glm::distance(way.a, way.b) / (0.5 * kCell)) + 1;
+            std::uint64_t last = ~std::uint64_t{0};
+            for (int k = 0; k <= steps; ++k) {
+                const glm::ivec2 here = cellOf(glm::mix(way.a, way.b, static_cast<double>(k) / steps));
+                if (keyOf(here) == last) continue;
+                last = keyOf(here);
+                for (int y = here.y - 1; y <= here.y + 1; ++y)
+                    for (int x = here.x - 1; x <= here.x + 1; ++x) {
+                        auto& ways = cells_[keyOf({x, y})];
+                        if (ways.empty() || ways.back().a != way.a || ways.back().b != way.b) ways.push_back(way);
+                    }
+            }
         }
     }
     bool has(const glm::dvec2& p) const {

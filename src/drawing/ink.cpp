@@ -10,6 +10,8 @@ namespace {
 
 /// Side of the squares of pixels that are drawn at once.
 constexpr int kSquare = 32;
+/// Dashes and gaps that are shorter together are a line to every eye, in pixels.
+constexpr double kShortestPeriod = 0.1;
 /// A line that turns by more goes around a corner: its cosine.
 constexpr double kCorner = 0.866;  // 30 degrees
 
@@ -137,7 +139,7 @@ static void addDashes(
 std::vector<std::vector<LinePoint>> dashesOf(const DrawnLine& line, const Dashes& dashes) {
     const std::vector<LinePoint> path = pathOf(line);
     if (path.size() < 2) return {};
-    if (dashes.dash <= 0) return {path};
+    if (dashes.dash + std::max(dashes.gap, 0.0) < kShortestPeriod || dashes.dash <= 0) return {path};
     std::vector<std::vector<LinePoint>> found;
     std::size_t from = 0;
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -171,7 +173,7 @@ void drawInk(std::span<const DrawnLine> lines, const InkLook& look, std::span<co
         if (low.x > high.x || low.y > high.y) continue;
         for (int y = low.y / kSquare; y <= high.y / kSquare; ++y)
             for (int x = low.x / kSquare; x <= high.x / kSquare; ++x)
-                inSquare[static_cast<std::size_t>(y * squares.x + x)].push_back(i);
+                inSquare[static_cast<std::size_t>(y) * squares.x + x].push_back(i);
     }
     tbb::parallel_for(std::size_t{0}, inSquare.size(), [&](std::size_t square) {
         const glm::ivec2 first = kSquare * glm::ivec2(square % squares.x, square / squares.x),

@@ -25,6 +25,9 @@ constexpr double kTouchingInMesh = 1e-6;
 /// coordinates to floats, and of the tree's own arithmetic.
 constexpr double kBoxSlack = 1e-6;
 
+/// Beyond every levelOf(), and within what Embree takes for a box.
+constexpr float kFarthest = 1e18f;
+
 /// What the tree's leaves are.
 struct Triangle {
     std::uint32_t number = 0;  ///< among all
@@ -82,11 +85,11 @@ struct Context : RTCIntersectContext {
 
 struct Occluders::Tree {
     const ViewedScene& scene;
-    glm::dvec2 low, high;  ///< the picture and its margin, in pixels
-    glm::dvec2 middle;     ///< subtracted from places, to keep floats small
-    double size;           ///< of the scene, normalized units
-    double nearest = 1;    ///< depth of what is nearest to the eye
-    double farthest = 0;   ///< no levelOf() is beyond
+    glm::dvec2 low, high;   ///< the picture and its margin, in pixels
+    glm::dvec2 middle;      ///< subtracted from places, to keep floats small
+    double size;            ///< of the scene, normalized units
+    double nearest = 1;     ///< depth of what is nearest to the eye
+    double levelSlack = 0;  ///< the rounding of levelOf() to floats
     std::vector<Triangle> triangles;
     RTCDevice device = nullptr;
     RTCScene boxes = nullptr;
@@ -109,7 +112,7 @@ struct Occluders::Tree {
     Tree& operator=(const Tree&) = delete;
 
     /// Depth as the tree knows it: it grows with depth, and is linear along lines in the picture.
-    double levelOf(double depth) const { return scene.projector().isParallel ? depth : -nearest / depth; }
+    double levelOf(double depth) const { return scene.projector().isParallel ? depth - nearest : -nearest / depth; }
     glm::dvec3 placeOf(const glm::dvec3& p) const { return {scene.projector().place(p), levelOf(-p.z)}; }
 
     /// The box around a triangle in the picture, from its nearest point on; nullopt where it is not seen.
@@ -119,10 +122,9 @@ struct Occluders::Tree {
         Box box;
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::dvec3 &p = corner[i].at, &q = corner[(i + 1) % 3].at;
-            const bool isSeen = projector.isParallel || -p.z > projector.nearest,
-                       isNextSeen = projector.isParallel || -q.z > projector.nearest;
+            const bool isSeen = -p.z > projector.nearest, isNextSeen = -q.z > projector.nearest;
             if (isSeen) box.add(placeOf(p));
-            if (isSeen != isNextSeen)  // from the eye's plane on
+            if (isSeen != isNextSeen)  // from the nearest plane on
                 box.add(placeOf(p + (q - p) * ((-projector.nearest - p.z) / (q.z - p.z))));
         }
         if (!(box.low.x <= high.x && box.low.y <= high.y && box.high.x >= low.x && box.high.y >= low.y))
@@ -144,11 +146,11 @@ struct Occluders::Tree {
                 for (std::size_t t = part * kPart; t < std::min(count, (part + 1) * kPart); ++t) {
                     const auto box = boxOf(placed, static_cast<std::uint32_t>(t));
                     if (!box) continue;
-                    const glm::vec3 least(box->low - glm::dvec3(middle + slack, kBoxSlack)),
+                    const glm::vec3 least(box->low - glm::dvec3(middle + slack, levelSlack)),
                         most(box->high + glm::dvec3(slack - middle, 0));
                     // What lies behind the triangle may be hidden by it, however far.
                     parts[part].push_back({placed.firstTriangle + static_cast<std::uint32_t>(t), i,
-                        {least.x, least.y, least.z, most.x, most.y, static_cast<float>(farthest + kBoxSlack)}});
+                        {least.x, least.y, least.z, most.x, most.y, kFarthest}});
                 }
             });
             for (const auto& part : parts) triangles.insert(triangles.end(), part.begin(), part.end());
@@ -158,8 +160,8 @@ struct Occluders::Tree {
     void measureDepths() {
         Bounds depths;
         for (std::uint32_t v = 0; v < scene.vertexCount(); ++v) depths.add(glm::dvec3(-scene.at(v).z));
-        nearest = std::max(depths.lo.z, scene.projector().nearest);
-        farthest = scene.projector().isParallel ? depths.hi.z : 0;
+        nearest = scene.projector().isParallel ? depths.lo.z : std::max(depths.lo.z, scene.projector().nearest);
+        levelSlack = kBoxSlack * (scene.projector().isParallel ? std::max(size, 1.0) : 1);
     }
 
     void build();
@@ -168,6 +170,8 @@ struct Occluders::Tree {
     bool compare(Query& query, const Triangle& triangle) const;
     double touchingOf(const Query& query, const ViewedMesh& placed, const std::array<ViewedVertex, 3>& corner,
         std::size_t end, bool sharesVertex) const;
+    void keepBeforeNearest(Interval& hidden, const Query& query, const std::array<ViewedVertex, 3>& corner,
+        const glm::dvec3& normal, const std::array<double, 2>& height) const;
     void hideBeyondHoles(Query& query, const Interval& hidden, const ViewedMesh& placed, std::uint32_t triangleOfMesh,
         const Mask& mask, const std::array<std::array<double, 2>, 3>& sides) const;
     void findContinued(Query& query, const std::array<ViewedVertex, 3>& corner, const glm::dvec3& normal, double sign,
@@ -224,7 +228,7 @@ Interval Occluders::Tree::partInPicture(const Candidate& line) const {
     const auto keep = [&](const auto& function) {
         part.keepAbove(function(line.end[0] + line.lift[0]), function(line.end[1] + line.lift[1]));
     };
-    if (!projector.isParallel) keep([&](const glm::dvec3& p) { return -p.z - projector.nearest; });
+    keep([&](const glm::dvec3& p) { return -p.z - projector.nearest; });
     for (int axis = 0; axis < 2; ++axis) {
         const double from = projector.rayOffset[axis] + projector.rayScale[axis] * low[axis],
                      to = projector.rayOffset[axis] + projector.rayScale[axis] * high[axis];
@@ -294,6 +298,7 @@ bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
         }
         hidden.keepAbove(inside[0], inside[1]);
     }
+    keepBeforeNearest(hidden, query, corner, normal, height);
     if (hidden.isEmpty()) return false;
     if (const Mask* mask = scene.maskOf(placed, number - placed.firstTriangle)) {
         hideBeyondHoles(query, hidden, placed, number - placed.firstTriangle, *mask, sides);
@@ -302,6 +307,21 @@ bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
     query.steps.emplace_back(hidden.from, 1);
     query.steps.emplace_back(hidden.to, -1);
     return query.deepest == 0 && hidden.from <= query.part.from && hidden.to >= query.part.to;
+}
+
+/// Of a triangle that reaches nearer than the nearest plane, the part beyond it hides.
+void Occluders::Tree::keepBeforeNearest(Interval& hidden, const Query& query, const std::array<ViewedVertex, 3>& corner,
+    const glm::dvec3& normal, const std::array<double, 2>& height) const {
+    const Projector& projector = scene.projector();
+    if (std::none_of(corner.begin(), corner.end(), [&](const auto& one) { return -one.at.z <= projector.nearest; }))
+        return;
+    // The depth of the triangle before a point of the line, times what makes it linear along the line.
+    const auto beyond = [&](std::size_t end) {
+        const glm::dvec3& p = query.end[end];
+        if (projector.isParallel) return -p.z + height[end] / normal.z - projector.nearest;
+        return -p.z - projector.nearest * glm::dot(normal, p) / glm::dot(normal, corner[0].at);
+    };
+    hidden.keepAbove(beyond(0), beyond(1));
 }
 
 /// Hides what a triangle with holes hides: looks at the mask every half pixel, and halves in on where alpha is one

@@ -80,10 +80,15 @@ private:
             const int steps = static_cast<int>(std::ceil(glm::length(way) / (0.5 * kCell))) + 1;
             std::uint64_t last = ~std::uint64_t{0};
             for (int i = 0; i <= steps; ++i) {
-                const glm::dvec2 at = glm::floor((a + way * (static_cast<double>(i) / steps)) / kCell) + 65536.0;
-                const std::uint64_t cell = static_cast<std::uint64_t>(at.y) << 32 | static_cast<std::uint64_t>(at.x);
-                if (cell != last) cells_.push_back({cell, rank});
-                last = cell;
+                const glm::dvec2 at = a + way * (static_cast<double>(i) / steps);
+                // Beside the boundary of a cell, a line that is the same may lie in the next one.
+                for (const double side : {-2 * kSame, 2 * kSame}) {
+                    const glm::dvec2 cell = glm::clamp(glm::floor((at + side) / kCell) + 65536.0, 0.0, 4e9);
+                    const std::uint64_t key =
+                        static_cast<std::uint64_t>(cell.y) << 32 | static_cast<std::uint64_t>(cell.x);
+                    if (key != last) cells_.push_back({key, rank});
+                    last = key;
+                }
             }
         }
         tbb::parallel_sort(cells_);

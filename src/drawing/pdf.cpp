@@ -1,10 +1,12 @@
 // Drawings as PDF, by Cairo: one page at the sheet's scale, lines over the picture. Cairo names no layers.
 
 #include "base/error.h"
+#include "base/text.h"
 #include "drawing/drawing.h"
 #include "settings/color.h"
 
 #include <cairo-pdf.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -63,7 +65,7 @@ public:
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "limn");
         std::string keywords;
-        for (const auto& [key, value] : metadata_) keywords += key + "=" + value + "; ";
+        for (const auto& [key, value] : metadata_) keywords += fmt::format("{}={}; ", key, repairedText(value));
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_KEYWORDS, keywords.c_str());
         const std::unique_ptr<cairo_t, DestroyContext> context(cairo_create(surface.get()));
         draw(context.get());

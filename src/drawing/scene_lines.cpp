@@ -28,8 +28,6 @@ std::vector<LinePiece> piecesOf(
         for (std::size_t i = part * kPart; i < std::min(candidates.size(), (part + 1) * kPart); ++i) {
             const Candidate& line = candidates[i];
             const auto found = occluders.partsOf(line, deepest);
-            // A curve's hidden pieces tell how its visible ones go on.
-            if (found.size() == 1 && found[0].behind > deepest && !line.isCurve) continue;
             const auto pointAt = [&](double t) {
                 const glm::dvec3 p = line.end[0] + (line.end[1] - line.end[0]) * t;
                 return LinePoint{scene.projector().place(p), -p.z};

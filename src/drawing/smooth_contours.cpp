@@ -80,7 +80,10 @@ private:
     /// Is a triangle fine enough for its smooth contour?
     bool isFine(std::uint32_t triangle) const {
         double turn = 0;
-        return inPixels(liftOf(triangle, &turn), at(3 * triangle)) <= kMostLift && turn <= kMostTurn;
+        const double lift = liftOf(triangle, &turn);
+        double pixels = 0;
+        for (std::uint32_t k = 0; k < 3; ++k) pixels = std::max(pixels, inPixels(lift, at(3 * triangle + k)));
+        return pixels <= kMostLift && turn <= kMostTurn;
     }
 
     bool facesCamera(std::uint32_t triangle) const {

@@ -2,6 +2,7 @@
 // groups), classes with the look, and the picture below as one PNG.
 
 #include "base/error.h"
+#include "base/text.h"
 #include "drawing/drawing.h"
 #include "settings/color.h"
 
@@ -119,7 +120,7 @@ private:
         for (const auto& [key, value] : metadata_) {
             pugi::xml_node entry = node.append_child("limn:entry");
             entry.append_attribute("name") = key.c_str();
-            entry.text() = value.c_str();
+            entry.text() = repairedText(value).c_str();
         }
     }
 
@@ -142,8 +143,8 @@ private:
         for (const auto& line : group.lines) {
             pugi::xml_node path = node.append_child("path");
             path.append_attribute("class") = ("line " + name).c_str();
-            const std::string object = objectOf(*drawing_, *line.line),
-                              material = drawing_->materials[line.line->material];
+            const std::string object = repairedText(objectOf(*drawing_, *line.line)),
+                              material = repairedText(drawing_->materials[line.line->material]);
             if (!object.empty()) path.append_attribute("data-object") = object.c_str();
             if (!material.empty()) path.append_attribute("data-material") = material.c_str();
             std::string style;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace limn {
 
@@ -12,15 +13,21 @@ Projector::Projector(const View& view)
       rayOffset(view.rayOffset - view.rayScale * view.samplePlace),
       nearest(view.near) {}
 
-/// ViewedMesh::seenWinding.
-static std::vector<int> seenWindingOf(const ViewedMesh& placed, bool isParallel) {
-    const glm::dvec3 eye = glm::inverse(placed.viewFromMesh) * -placed.pivot;
-    std::vector<int> winding;
-    winding.reserve(placed.edges->components.size());
-    for (const auto& component : placed.edges->components) {
-        const bool isInside = !isParallel && glm::all(glm::greaterThanEqual(eye, component.box.lo))
-            && glm::all(glm::lessThanEqual(eye, component.box.hi));
-        winding.push_back(isInside ? 0 : component.outward * (glm::determinant(placed.viewFromMesh) < 0 ? -1 : 1));
+/// ViewedMesh::seenWinding. Nothing is certain about what has holes, and what reaches the nearest plane.
+static std::vector<int> seenWindingOf(const ViewedMesh& placed, const Projector& projector) {
+    std::vector<int> winding(placed.edges->components.size());
+    if (!placed.masks.empty()) return winding;
+    for (std::size_t i = 0; i < winding.size(); ++i) {
+        const TriangleComponent& component = placed.edges->components[i];
+        double depth = std::numeric_limits<double>::infinity();
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 p(corner & 1 ? component.box.hi.x : component.box.lo.x,
+                corner & 2 ? component.box.hi.y : component.box.lo.y,
+                corner & 4 ? component.box.hi.z : component.box.lo.z);
+            depth = std::min(depth, -(placed.viewFromMesh * p + placed.pivot).z);
+        }
+        if (depth > projector.nearest)
+            winding[i] = component.outward * (glm::determinant(placed.viewFromMesh) < 0 ? -1 : 1);
     }
     return winding;
 }
@@ -58,7 +65,7 @@ ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> m
         const glm::dmat3 linear = view.viewFromRelative * glm::dmat3(world);
         placed.viewFromMesh = linear;
         placed.pivot = view.viewFromRelative * (glm::dvec3(world * glm::dvec4(placed.mesh->pivot, 1)) - view.eye);
-        placed.seenWinding = seenWindingOf(placed, projector_.isParallel);
+        placed.seenWinding = seenWindingOf(placed, projector_);
         placed.normalMatrix = glm::dmat3(
             glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
         if (glm::determinant(linear) < 0) placed.normalMatrix = -placed.normalMatrix;

@@ -91,7 +91,7 @@ private:
     const SceneAt& scene_;
     Projector projector_;
     HoleMasks masks_;
-    std::vector<ViewedMesh> meshes_;  ///< those with triangles or lines
+    std::vector<ViewedMesh> meshes_;  ///< of each instance
     std::vector<glm::dvec3> at_;      ///< of each vertex; view space, normalized units
     std::size_t triangleCount_ = 0;
 };

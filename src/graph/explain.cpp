@@ -134,8 +134,8 @@ private:
             {SceneData::normals, "normals"}, {SceneData::uvs, "uvs"}, {SceneData::colors, "vertex colours"},
             {SceneData::materials, "materials"}, {SceneData::lights, "lights"}, {SceneData::textures, "textures"},
             {SceneData::unifiedVertices, "one index for all attributes"}, {SceneData::rays, "ray tracing tree"},
-            {SceneData::triangles, "triangles and their edges on the CPU"},
-            {SceneData::marks, "the scene's own lines"}, {SceneData::coincidence, "which coincident faces are visible"},
+            {SceneData::triangles, "triangles and their edges on the CPU"}, {SceneData::marks, "the scene's own lines"},
+            {SceneData::coincidence, "which coincident faces are visible"},
             {SceneData::previous, "places in the frame before"}};
         std::vector<std::string> names;
         for (const auto& [flag, text] : all)

@@ -102,7 +102,7 @@ struct HostImage {
 
 /// The input and output of a host pass. Images of `writes` that nobody reads are empty.
 struct HostWork {
-    const View* view = nullptr;        ///< the sample's
+    const View* view = nullptr;  ///< the sample's
     HostScenes scene;
     std::span<const Mark> marks;  ///< where the pass needs SceneData::marks
     std::vector<HostImage> reads, writes;

@@ -154,7 +154,8 @@ private:
     void film(const Job& job, const std::vector<int>& frames, double fps, std::size_t failedBefore) {
         const auto& path = job.config.output.video;
         if (path.empty() || frames.empty()) return;
-        if (!options_.chunk.empty() || !options_.frames.empty() || !options_.crop.empty() || !options_.output.empty())
+        if (options_.firstFrameOnly || !options_.chunk.empty() || !options_.frames.empty() || !options_.crop.empty()
+            || !options_.output.empty())
             return log::info("{}: left to limn video: this run draws a part, or to another place", path.string());
         behind_.wait();
         if (failures() > failedBefore) return log::warning("{}: not made, since frames failed", path.string());

@@ -51,7 +51,10 @@ const LoadedScene& Session::load(const RenderConfig& config) {
             if (stamps.contains(file)) continue;
             const Stamp stamp = stampOf(file);
             // A file that was written while it may have been read counts as changed.
-            const bool isSure = stamp && stamp->second < begun_.at(nameOf(config));
+            // One from the future was written by a clock that runs ahead.
+            const bool isSure = stamp
+                && (stamp->second < begun_.at(nameOf(config))
+                    || stamp->second > std::filesystem::file_time_type::clock::now());
             stamps.emplace(file, isSure ? stamp : std::nullopt);
         }
     return loaded;

@@ -130,7 +130,7 @@ TEST_F(Errors, wordsAndNumbers) {
     expect("render config.toml --crop 60,40,10,10", 64, "does not lie in the picture");
     expect("render config.toml --frames 1:5", 64, "list of frames");
     expect("render config.toml --frames 1-3", 64, "####");
-    expect("render config.toml --output picture.bmp", 64, ".exr, .jpg, .png or .tif");
+    expect("render config.toml --output picture.bmp", 64, ".exr, .jpg, .pdf, .png, .svg or .tif");
     EXPECT_EQ(run("render config.toml --device nonsense").exitCode, 69) << "with a line for each device";
     expect("techniques nonsense", 64, "there is no technique");
 }

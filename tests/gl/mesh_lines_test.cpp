@@ -378,6 +378,22 @@ TEST(MeshLines, ofIntersectionsLieOnBothSurfaces) {
     for (const auto& line : linesOf(scene, "intersections = 0")) EXPECT_NE(line.source, MeshLineSource::intersections);
 }
 
+TEST(MeshLines, ofWhatLiesBeforeTheNearestPlaneAreNotThere) {
+    const std::string behind = box({-0.5, -0.5, 11}, {0.5, 0.5, 12}), seen = box({-0.5, -0.5, -1}, {0.5, 0.5, 0});
+    EXPECT_TRUE(linesOf(sceneOf(behind, kFront)).empty());
+    // Nor does it hide anything; and of what the plane cuts, the part beyond it does.
+    const double alone = visibleLength(linesOf(sceneOf(seen, kFront)));
+    EXPECT_NEAR(alone, 400, 1e-3);
+    EXPECT_NEAR(visibleLength(linesOf(sceneOf(joined({behind, seen}), kFront))), alone, 1e-3);
+    const std::string near = kFront + "near = 5\n";
+    const std::string wall = quadObj({0, -2, 9}, {0, 2, 9}, {0.3, 2, 1}, {0.3, -2, 1});
+    double behindWall = 0;
+    for (const auto& line : linesOf(sceneOf(joined({seen, wall}), near)))
+        if (line.part == 0) behindWall += lengthOf(line);
+    // Seen from before, the wall spans x from 0 to 0.3; its nearer half, up to x = 0.15, is cut off.
+    EXPECT_NEAR(behindWall, 400 - 2 * 15, 0.5);
+}
+
 TEST(MeshLines, areSeenThroughHoles) {
     // A card, and before it one of twice its size, whose lower half is a hole: what shows is what lies there.
     TemporaryFolder folder;
