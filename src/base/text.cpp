@@ -136,8 +136,8 @@ std::string jsonText(std::string_view text) {
 std::string repairedText(std::string_view text) {
     std::string result;
     while (!text.empty()) {
-        const std::size_t length = std::max<std::size_t>(utf8Length(text), 1);
-        const bool isBad = utf8Length(text) == 0 || static_cast<unsigned char>(text.front()) < 0x20;
+        const std::size_t known = utf8Length(text), length = std::max<std::size_t>(known, 1);
+        const bool isBad = known == 0 || static_cast<unsigned char>(text.front()) < 0x20;
         result += isBad ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
         text.remove_prefix(length);
     }

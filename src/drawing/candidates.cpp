@@ -38,6 +38,7 @@ public:
                 const ViewedVertex end = scene_.vertex(placed_, i == 0 ? edge.a : edge.b);
                 made.end[i] = end.at;
                 made.vertex[i] = end.number;
+                made.node[i] = std::uint64_t{end.number} + 1;  // 0 is no node
             }
             made.source = source;
             made.isCurve = source == MeshLineSource::contours && isSmoothEdge(placed_, edge);
@@ -95,7 +96,7 @@ private:
         for (const std::uint32_t corner : uses) {
             const std::uint32_t first = corner / 3 * 3;
             const glm::dvec3 p = cornerAt(first), n = glm::cross(cornerAt(first + 1) - p, cornerAt(first + 2) - p);
-            if (scene_.projector().isParallel ? n.z > 0 : glm::dot(n, p) < 0) return corner / 3;
+            if (scene_.projector().facing(n, p) > 0) return corner / 3;
         }
         return uses[0] / 3;
     }

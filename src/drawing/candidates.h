@@ -15,7 +15,7 @@ struct Candidate {
     std::array<glm::dvec3, 2> lift;  ///< added to them where it is asked what hides the line
     /// Numbers of its ends among all vertices (ViewedVertex), or kNoVertex.
     std::array<std::uint32_t, 2> vertex{kNoVertex, kNoVertex};
-    std::array<std::uint64_t, 2> node{0, 0};  ///< pieces join where they share one; 0: where they share a vertex
+    std::array<std::uint64_t, 2> node{0, 0};  ///< pieces join where they share one
     std::array<std::uint32_t, 2> within{
         kNoVertex, kNoVertex};  ///< triangles that it lies in, besides those on its edge
     MeshLineSource source = MeshLineSource::contours;

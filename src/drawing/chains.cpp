@@ -1,5 +1,7 @@
 #include "drawing/chains.h"
 
+#include "drawing/segment.h"
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -27,7 +29,7 @@ using PieceEnd = std::uint32_t;
 class Links {
 public:
     Links(const std::vector<LinePiece>& pieces, std::span<const Candidate> candidates)
-        : pieces_(pieces), candidates_(candidates), linked_(2 * pieces.size(), kNothing) {
+        : pieces_(pieces), linked_(2 * pieces.size(), kNothing) {
         // Looks as numbers, so that ends are sorted fast.
         std::map<Look, std::uint32_t> looks;
         struct End {
@@ -89,7 +91,6 @@ private:
     }
 
     const std::vector<LinePiece>& pieces_;
-    std::span<const Candidate> candidates_;
     std::vector<PieceEnd> linked_;
 };
 
@@ -105,12 +106,14 @@ struct Span {
     }
 };
 
+/// 0: visible; 1: hidden, and to be drawn; 2: neither.
+int kindOf(const Span& span, int deepest) { return span.behind == 0 ? 0 : span.behind <= deepest ? 1 : 2; }
+
 /// Joins neighbours that are hidden alike.
 void joinAlike(std::vector<Span>& spans, int deepest) {
-    const auto kind = [&](const Span& span) { return span.behind == 0 ? 0 : span.behind <= deepest ? 1 : 2; };
     std::vector<Span> joined;
     for (auto& span : spans) {
-        if (joined.empty() || kind(joined.back()) != kind(span)) {
+        if (joined.empty() || kindOf(joined.back(), deepest) != kindOf(span, deepest)) {
             joined.push_back(std::move(span));
             continue;
         }
@@ -205,7 +208,7 @@ double lengthOf(const DrawnLine& line) {
     return length;
 }
 
-/// Places near lines, up to kBesides.
+/// Places near lines, up to kBeside.
 class Neighbourhood {
 public:
     void add(const DrawnLine& line) {
@@ -229,10 +232,7 @@ public:
     bool has(const glm::dvec2& p) const {
         const auto cell = cells_.find(keyOf(cellOf(p)));
         return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), [&](const Way& way) {
-            const glm::dvec2 along = way.b - way.a;
-            const double squared = glm::dot(along, along),
-                         t = squared > 0 ? std::clamp(glm::dot(p - way.a, along) / squared, 0.0, 1.0) : 0;
-            return glm::distance(p, way.a + along * t) <= kBeside;
+            return distanceFromSegment(way.a, way.b, p) <= kBeside;
         });
     }
 
@@ -319,8 +319,7 @@ private:
 
     /// Lets a closed chain begin where its look changes.
     void turn(std::vector<Span>& spans) const {
-        const auto kind = [&](const Span& span) { return span.behind == 0 ? 0 : span.behind <= deepest_ ? 1 : 2; };
-        if (kind(spans.front()) != kind(spans.back())) return;
+        if (kindOf(spans.front(), deepest_) != kindOf(spans.back(), deepest_)) return;
         Span& last = spans.back();
         Span& first = spans.front();
         last.points.insert(last.points.end(), first.points.begin() + 1, first.points.end());

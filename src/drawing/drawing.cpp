@@ -1,5 +1,7 @@
 #include "drawing/drawing.h"
 
+#include "drawing/segment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,13 +17,10 @@ void markNeeded(const std::vector<glm::dvec2>& path, std::size_t first, std::siz
     while (!open.empty()) {
         const auto [from, to] = open.back();
         open.pop_back();
-        const glm::dvec2 way = path[to] - path[from];
-        const double squared = glm::dot(way, way);
         double farthest = tolerance;
         std::size_t at = 0;
         for (std::size_t i = from + 1; i < to; ++i) {
-            const double t = squared > 0 ? std::clamp(glm::dot(path[i] - path[from], way) / squared, 0.0, 1.0) : 0;
-            const double distance = glm::distance(path[i], path[from] + way * t);
+            const double distance = distanceFromSegment(path[from], path[to], path[i]);
             if (distance > farthest) farthest = distance, at = i;
         }
         if (at == 0) continue;

@@ -1,16 +1,14 @@
 // Where triangles pass through one another: pairs from a tree of boxes (Embree's rtcCollide), then the segment that
 // both triangles share (Möller 1997, "A Fast Triangle-Triangle Intersection Test").
 
-#include "base/error.h"
 #include "drawing/candidates.h"
 #include "mesh/coincident.h"
+#include "rays/embree.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 namespace limn {
@@ -130,34 +128,17 @@ void takePairs(void* user, RTCCollision* collisions, unsigned count) {
     }
 }
 
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
 /// In the order of triangles.
 std::vector<Crossing> crossings(const ViewedScene& scene, bool withHidden) {
     const SceneInfo& info = scene.scene().info;
     Tree tree{scene, kCoincidentDistance * info.diagonal() * info.unit(), {}, {}};
     addLeaves(tree, withHidden);
     if (tree.leaves.size() < 2) return {};
-    const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(nullptr));
-    const std::unique_ptr<RTCSceneTy, ReleaseScene> boxes(rtcNewScene(device.get()));
-    rtcSetSceneBuildQuality(boxes.get(), RTC_BUILD_QUALITY_LOW);
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(tree.leaves.size()));
-    rtcSetGeometryUserData(geometry, &tree);
-    rtcSetGeometryBoundsFunction(geometry, boundsOf, nullptr);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(boxes.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(boxes.get());
+    constexpr TreePurpose kPurpose{"the tree of intersections", "use coarser meshes, or intersections = 0"};
+    const EmbreeDevice device = makeEmbreeDevice();
+    const EmbreeScene boxes = treeOfBoxes(device.get(), tree.leaves.size(), &tree, boundsOf, nullptr, kPurpose);
     rtcCollide(boxes.get(), boxes.get(), takePairs, &tree);
-    if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE)
-        throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the tree of intersections",
-            "use coarser meshes, or intersections = 0");
+    checkEmbree(device.get(), kPurpose);
     std::vector<Crossing> all;
     for (const auto& part : tree.found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) {

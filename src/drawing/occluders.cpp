@@ -1,16 +1,14 @@
 #include "drawing/occluders.h"
 
-#include "base/error.h"
 #include "mesh/coincident.h"
+#include "rays/embree.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 namespace limn {
 namespace {
@@ -91,8 +89,8 @@ struct Occluders::Tree {
     double nearest = 1;     ///< depth of what is nearest to the eye
     double levelSlack = 0;  ///< the rounding of levelOf() to floats
     std::vector<Triangle> triangles;
-    RTCDevice device = nullptr;
-    RTCScene boxes = nullptr;
+    EmbreeDevice device;
+    EmbreeScene boxes;
 
     Tree(const ViewedScene& scene_, glm::ivec2 imageSize, double margin)
         : scene(scene_),
@@ -103,10 +101,6 @@ struct Occluders::Tree {
         measureDepths();
         findSeen();
         build();
-    }
-    ~Tree() {
-        if (boxes) rtcReleaseScene(boxes);
-        if (device) rtcReleaseDevice(device);
     }
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
@@ -197,28 +191,10 @@ void meetTriangle(const RTCOccludedFunctionNArguments* args) {
 }  // namespace
 
 void Occluders::Tree::build() {
-    device = rtcNewDevice(nullptr);
-    boxes = rtcNewScene(device);
-    rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
-    // Few lines are asked for beside so many triangles: a tree that is made fast is better than one that is walked
-    // fast.
-    rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_LOW);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
-    rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, boundsOfTriangle, nullptr);
-    rtcSetGeometryOccludedFunction(geometry, meetTriangle);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(boxes, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(boxes);
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the tree of what hides lines",
-            "use coarser meshes, or lines that are found in the picture: technique = \"depth_normal\"");
-    if (error != RTC_ERROR_NONE)
-        throw Error(ExitCode::internal, {}, "Embree failed with code " + std::to_string(static_cast<int>(error)),
-            "please report this");
+    device = makeEmbreeDevice();
+    boxes = treeOfBoxes(device.get(), triangles.size(), this, boundsOfTriangle, meetTriangle,
+        {"the tree of what hides lines",
+            "use coarser meshes, or lines that are found in the picture: technique = \"depth_normal\""});
 }
 
 /// The part of a line before the eye and within the picture's margin.
@@ -275,7 +251,7 @@ bool Occluders::Tree::compare(Query& query, const Triangle& triangle) const {
     const double area = glm::length(normal);
     if (!(area > 0)) return false;
     normal /= area;
-    const double facing = projector.isParallel ? normal.z : -glm::dot(normal, corner[0].at);
+    const double facing = projector.facing(normal, corner[0].at);
     if (facing == 0) return false;
     const double sign = facing > 0 ? 1 : -1;
     normal *= sign;
@@ -466,7 +442,7 @@ std::vector<LinePart> Occluders::partsOf(const Candidate& line, int deepest) con
     ray.dir_y = static_cast<float>(way.y);
     ray.tfar = 1;
     ray.mask = ~0u;
-    rtcOccluded1(tree.boxes, &context, &ray);
+    rtcOccluded1(tree.boxes.get(), &context, &ray);
     std::vector<LinePart> parts = partsBetween(part, query.steps, deepest);
     return query.continued.empty() ? parts : without(parts, query.continued);
 }

@@ -1,8 +1,7 @@
 // Drawings as PDF, by Cairo: one page at the sheet's scale, lines over the picture. Cairo names no layers.
 
-#include "base/error.h"
 #include "base/text.h"
-#include "drawing/drawing.h"
+#include "drawing/vector_encoder.h"
 #include "settings/color.h"
 
 #include <cairo-pdf.h>
@@ -44,17 +43,9 @@ cairo_status_t take(void* source, unsigned char* data, unsigned length) {
     return CAIRO_STATUS_SUCCESS;
 }
 
-class PdfEncoder : public ImageEncoder {
+class PdfEncoder : public VectorEncoder {
 public:
-    PdfEncoder(std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options)
-        : drawing_(std::static_pointer_cast<const Drawing>(options.vectors)), metadata_(metadata), options_(options) {
-        if (!drawing_) throw Error(ExitCode::internal, {}, "a PDF is written without a drawing", "please report this");
-        options_.bits = 8;
-        if (options_.underlay) picture_ = imageFormat("x.png")->open(layers, height, {}, options_);
-    }
-    void add(std::span<const Layer> band) override {
-        if (picture_) picture_->add(band);
-    }
+    using VectorEncoder::VectorEncoder;
     std::vector<std::byte> finish() override {
         std::vector<std::byte> bytes;
         const double width = drawing_->millimetres(drawing_->size.x) * kPointsPerMillimetre,
@@ -114,16 +105,13 @@ private:
         cairo_paint(context);
         cairo_restore(context);
     }
-
-    std::shared_ptr<const Drawing> drawing_;
-    Metadata metadata_;
-    EncodeOptions options_;
-    std::unique_ptr<ImageEncoder> picture_;
 };
 
 std::unique_ptr<ImageEncoder> openPdf(
     std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options) {
-    return std::make_unique<PdfEncoder>(layers, height, metadata, options);
+    EncodeOptions eight = options;  // all that Cairo takes
+    eight.bits = 8;
+    return std::make_unique<PdfEncoder>(layers, height, metadata, eight);
 }
 
 /// What Cairo has written is not read back: --resume draws PDFs again.

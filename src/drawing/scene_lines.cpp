@@ -32,10 +32,6 @@ std::vector<LinePiece> piecesOf(
                 const glm::dvec3 p = line.end[0] + (line.end[1] - line.end[0]) * t;
                 return LinePoint{scene.projector().place(p), -p.z};
             };
-            const auto nodeOf = [&](std::size_t end) {
-                if (line.vertex[end] != kNoVertex) return std::uint64_t{line.vertex[end]} + 1;
-                return line.node[end];
-            };
             for (std::size_t k = 0; k < found.size(); ++k) {
                 LinePiece piece{
                     {pointAt(found[k].from), pointAt(found[k].to)}, {}, static_cast<std::uint32_t>(i), found[k].behind};
@@ -43,11 +39,11 @@ std::vector<LinePiece> piecesOf(
                     return std::uint64_t{1} << 62 | static_cast<std::uint64_t>(i) << 24 | (number & 0xFFFFFF);
                 };
                 if (found[k].from == 0)
-                    piece.node[0] = nodeOf(0);
+                    piece.node[0] = line.node[0];
                 else if (k > 0 && found[k - 1].to == found[k].from)
                     piece.node[0] = inner(k);
                 if (found[k].to == 1)
-                    piece.node[1] = nodeOf(1);
+                    piece.node[1] = line.node[1];
                 else if (k + 1 < found.size() && found[k].to == found[k + 1].from)
                     piece.node[1] = inner(k + 1);
                 parts[part].push_back(piece);
@@ -66,7 +62,6 @@ SceneLines::SceneLines(
     : scene_(scene), meshOf_(std::move(meshOf)), edgesOf_(std::move(edgesOf)) {}
 
 const std::vector<DrawnLine>& SceneLines::lines(const View& view, const MeshLineRequest& request) const {
-    const std::lock_guard lock(mutex_);
     for (const auto& kept : kept_)
         if (kept.request == request && showsSame(kept.view, view)) return kept.lines;
     std::erase_if(kept_, [&](const Kept& kept) { return kept.request == request || !showsSame(kept.view, view); });

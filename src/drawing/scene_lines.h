@@ -6,7 +6,6 @@
 #include "graph/graph.h"
 #include "stage/scene_at.h"
 
-#include <mutex>
 #include <span>
 
 namespace limn {
@@ -32,7 +31,6 @@ private:
     const SceneAt& scene_;
     std::vector<const TriMesh*> meshOf_;
     std::vector<const TriangleEdges*> edgesOf_;
-    mutable std::mutex mutex_;
     mutable std::vector<Kept> kept_;  ///< one of each request
 };
 

@@ -58,7 +58,7 @@ private:
     }
     glm::dvec3 at(std::uint32_t corner) const { return scene_.vertex(placed_, mesh_.indices[corner]).at; }
     double facing(std::uint32_t corner, const glm::dvec3& normal) const {
-        return scene_.projector().isParallel ? normal.z : -glm::dot(normal, at(corner));
+        return scene_.projector().facing(normal, at(corner));
     }
 
     /// The lift of a triangle's contour; where wanted, the largest angle between its corners' normals too.
@@ -88,7 +88,7 @@ private:
 
     bool facesCamera(std::uint32_t triangle) const {
         const glm::dvec3 p = at(3 * triangle), n = glm::cross(at(3 * triangle + 1) - p, at(3 * triangle + 2) - p);
-        return scene_.projector().isParallel ? n.z > 0 : glm::dot(n, p) < 0;
+        return scene_.projector().facing(n, p) > 0;
     }
 
     /// Those components whose triangles are fine wherever the smooth contour or the mesh's own goes.

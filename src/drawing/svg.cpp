@@ -1,9 +1,8 @@
 // Drawings as SVG 1.1: millimetres at the sheet's scale, a layer for each visibility and source (Inkscape's layers are
 // groups), classes with the look, and the picture below as one PNG.
 
-#include "base/error.h"
 #include "base/text.h"
-#include "drawing/drawing.h"
+#include "drawing/vector_encoder.h"
 #include "settings/color.h"
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 namespace limn {
@@ -60,17 +58,9 @@ std::string pathData(const PaperLine& line) {
     return data;
 }
 
-class SvgEncoder : public ImageEncoder {
+class SvgEncoder : public VectorEncoder {
 public:
-    SvgEncoder(std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options)
-        : drawing_(std::static_pointer_cast<const Drawing>(options.vectors)), metadata_(metadata), options_(options) {
-        if (!drawing_) throw Error(ExitCode::internal, {}, "an SVG is written without a drawing", "please report this");
-        options_.compression = 9;
-        if (options_.underlay) picture_ = imageFormat("x.png")->open(layers, height, {}, options_);
-    }
-    void add(std::span<const Layer> band) override {
-        if (picture_) picture_->add(band);
-    }
+    using VectorEncoder::VectorEncoder;
     std::vector<std::byte> finish() override {
         pugi::xml_document document;
         write(document);
@@ -157,16 +147,13 @@ private:
             path.append_attribute("d") = pathData(line).c_str();
         }
     }
-
-    std::shared_ptr<const Drawing> drawing_;
-    Metadata metadata_;
-    EncodeOptions options_;
-    std::unique_ptr<ImageEncoder> picture_;
 };
 
 std::unique_ptr<ImageEncoder> openSvg(
     std::span<const Layer> layers, int height, const Metadata& metadata, const EncodeOptions& options) {
-    return std::make_unique<SvgEncoder>(layers, height, metadata, options);
+    EncodeOptions packed = options;  // the picture is text in the file
+    packed.compression = 9;
+    return std::make_unique<SvgEncoder>(layers, height, metadata, packed);
 }
 
 std::optional<Metadata> readWholeSvg(const std::filesystem::path& path) {

@@ -37,7 +37,7 @@ bool ViewedScene::turnsAway(const ViewedMesh& mesh, std::uint32_t triangleOfMesh
     const int winding = mesh.seenWinding[mesh.edges->componentOf[corner[0].number - mesh.firstVertex]];
     if (winding == 0) return false;
     const glm::dvec3 n = glm::cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
-    return winding * (projector_.isParallel ? n.z : -glm::dot(n, corner[0].at)) < 0;
+    return winding * projector_.facing(n, corner[0].at) < 0;
 }
 
 ViewedScene::ViewedScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf,

@@ -25,6 +25,10 @@ struct Projector {
     glm::dvec2 place(const glm::dvec3& p) const {
         return ((isParallel ? glm::dvec2(p) : glm::dvec2(p) / -p.z) - rayOffset) / rayScale;
     }
+    /// Above 0 where a surface with this normal at p faces the eye.
+    double facing(const glm::dvec3& normal, const glm::dvec3& p) const {
+        return isParallel ? normal.z : -glm::dot(normal, p);
+    }
     /// Is x seen at the left (above 0) or at the right of the way from p to q? Linear in x.
     double side(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& x) const {
         if (!isParallel) return glm::dot(glm::cross(q, p), x);

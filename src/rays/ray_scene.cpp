@@ -1,9 +1,8 @@
 #include "rays/ray_scene.h"
 
-#include "base/error.h"
+#include "rays/embree.h"
 #include "rays/holes.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,28 +13,10 @@
 namespace limn {
 namespace {
 
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using TreeDevice = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Tree = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+constexpr TreePurpose kPurpose{"the ray tracing tree", "use coarser meshes, or a screen-space technique"};
 
-/// Embree reports error codes. The only failure that input can cause is a lack of memory.
-void check(RTCDevice device) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_NONE) return;
-    if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw Error(ExitCode::outOfMemory, {}, "there is not enough memory for the ray tracing tree",
-            "use coarser meshes, or a screen-space technique");
-    throw Error(ExitCode::internal, {}, "Embree failed with code " + std::to_string(static_cast<int>(error)),
-        "please report this");
-}
-
-Tree makeScene(RTCDevice device) {
-    Tree scene(rtcNewScene(device));
+EmbreeScene makeScene(RTCDevice device) {
+    EmbreeScene scene(rtcNewScene(device));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     return scene;
 }
@@ -81,15 +62,15 @@ void addTriangles(RTCDevice device, RTCScene scene, const TriMesh& mesh, const g
         rtcAttachGeometry(scene, geometry);
     }
     rtcReleaseGeometry(geometry);
-    check(device);
+    checkEmbree(device, kPurpose);
 }
 
 }  // namespace
 
 struct RayScene::Trees {
-    TreeDevice device;
-    std::vector<Tree> shared;
-    Tree top;
+    EmbreeDevice device;
+    std::vector<EmbreeScene> shared;
+    EmbreeScene top;
     HoleMasks masks;
     std::vector<std::unique_ptr<Holes>> holes;
 
@@ -113,8 +94,7 @@ struct RayScene::Trees {
 RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
     : trees_(std::make_unique<Trees>()), unit_(scene.info.unit()) {
     origin_ = scene.info.bounds.empty() ? glm::dvec3(0) : scene.info.bounds.lo;
-    trees_->device.reset(rtcNewDevice(nullptr));
-    if (!trees_->device) check(nullptr);
+    trees_->device = makeEmbreeDevice();
     RTCDevice device = trees_->device.get();
     trees_->top = makeScene(device);
     // Instances share a tree if they share a mesh and its holes.
@@ -141,7 +121,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
             tree = trees_->shared.back().get();
             addTriangles(device, tree, mesh, glm::dmat3(1), glm::dvec3(0), trees_->holesOf(mesh, look.second));
             rtcCommitScene(tree);
-            check(device);
+            checkEmbree(device, kPurpose);
         }
         RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance, tree);
@@ -155,7 +135,7 @@ RayScene::RayScene(const SceneAt& scene, std::span<const TriMesh* const> meshOf)
         rtcReleaseGeometry(instance);
     }
     rtcCommitScene(trees_->top.get());
-    check(device);
+    checkEmbree(device, kPurpose);
 }
 
 RayScene::~RayScene() = default;

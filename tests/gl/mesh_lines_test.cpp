@@ -34,8 +34,6 @@ LoadedScene sceneOf(const std::string& obj, const std::string& camera) {
     return makeScene("[[mesh]]\nname = 'm'\nfile = 'm.obj'\n" + camera, {{"m.obj", obj}});
 }
 
-std::string box(const glm::dvec3& lo, const glm::dvec3& hi) { return boxObj(lo, hi); }
-
 /// Several OBJ texts as one: vertices are numbered from the first.
 std::string joined(const std::vector<std::string>& objs) {
     std::string all;
@@ -86,7 +84,7 @@ double slanted(const glm::dvec3& v) {
 }
 
 TEST(MeshLines, ofACubeAreItsNineVisibleEdgesAndThreeHidden) {
-    const LoadedScene scene = sceneOf(box(glm::dvec3(-0.5), glm::dvec3(0.5)), kSlant);
+    const LoadedScene scene = sceneOf(boxObj(glm::dvec3(-0.5), glm::dvec3(0.5)), kSlant);
     const double edges = slanted({1, 0, 0}) + slanted({0, 1, 0}) + slanted({0, 0, 1});
     const auto visible = linesOf(scene);
     // Floats hold the places of vertices to 1e-7 of a unit, that is 1e-5 pixels.
@@ -131,7 +129,7 @@ TEST(MeshLines, ofThingsThatTouchAreDrawnOnce) {
     // Boxes on a floor whose rim is left out. From the right, above and before: 6 edges along x of both boxes' tops and
     // fronts, 4 uprights and 4 along z, those between the boxes once.
     const std::string floor = quadObj({-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}),
-                      left = box({-0.5, 0, -0.5}, {0.5, 1, 0.5}), right = box({0.5, 0, -0.5}, {1.5, 1, 0.5});
+                      left = boxObj({-0.5, 0, -0.5}, {0.5, 1, 0.5}), right = boxObj({0.5, 0, -0.5}, {1.5, 1, 0.5});
     const double expected = 6 * slanted({1, 0, 0}) + 4 * slanted({0, 1, 0}) + 4 * slanted({0, 0, 1});
     const auto lengthFor = [&](const std::vector<std::string>& objs) {
         return visibleLength(linesOf(sceneOf(joined(objs), kSlant), "borders = 0"));
@@ -379,7 +377,7 @@ TEST(MeshLines, ofIntersectionsLieOnBothSurfaces) {
 }
 
 TEST(MeshLines, ofWhatLiesBeforeTheNearestPlaneAreNotThere) {
-    const std::string behind = box({-0.5, -0.5, 11}, {0.5, 0.5, 12}), seen = box({-0.5, -0.5, -1}, {0.5, 0.5, 0});
+    const std::string behind = boxObj({-0.5, -0.5, 11}, {0.5, 0.5, 12}), seen = boxObj({-0.5, -0.5, -1}, {0.5, 0.5, 0});
     EXPECT_TRUE(linesOf(sceneOf(behind, kFront)).empty());
     // Nor does it hide anything; and of what the plane cuts, the part beyond it does.
     const double alone = visibleLength(linesOf(sceneOf(seen, kFront)));
