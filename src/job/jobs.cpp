@@ -76,8 +76,8 @@ Job readJob(const std::string& path, const RunOptions& options, const std::vecto
             throw Error(ExitCode::usage, {path},
                 fmt::format("would write the same file as '{}': '{}'", other.config.file.string(), job.output.string()),
                 "put {config} into --output, or give each its own output.path");
-    job.config.output.isVector = imageFormat(job.output)->traits.isVector;
-    if (job.config.output.isVector) checkVectors(job.config, !options.crop.empty());
+    job.config.output.path = job.output;
+    if (imageFormat(job.output)->traits.isVector) checkVectors(job.config, !options.crop.empty());
     if (job.config.image.transparent && imageFormat(job.output)->traits.isOpaque)
         log::warning(
             "{}: '{}' cannot be transparent: its background comes out black; end the path in .png, .tif or .exr", path,

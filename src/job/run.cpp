@@ -116,6 +116,7 @@ private:
         requireWritable(job.output);
         progress_.begin(fmt::format("choosing settings for {}", job.config.file.string()));
         job.config = options_.keepQuality(session_, job.config, options_.overrides, job.output);
+        job.config.output.path = job.output;
         progress_.end();
         statistics_.promise(job.config.promise);
     }

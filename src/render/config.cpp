@@ -391,6 +391,11 @@ private:
 
 }  // namespace
 
+bool OutputSettings::isVector() const {
+    const ImageFormat* format = imageFormat(path);
+    return format && format->traits.isVector && std::find(aovs.begin(), aovs.end(), &aov::beauty) != aovs.end();
+}
+
 std::vector<SettingsTable> configTables() {
     return {{"", "top of the file", kHeader, defaultsOf<Header>()},
         {"[image]",

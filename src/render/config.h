@@ -42,7 +42,9 @@ struct OutputSettings {
     std::filesystem::path video;  ///< a film of all frames; empty: none
     std::vector<const Aov*> aovs{&aov::beauty};
     EncodeOptions encode;
-    bool isVector = false;  ///< lines from the mesh are drawn as lines, not into the picture
+
+    /// Are lines from the mesh drawn as lines into the file, and not into the picture?
+    bool isVector() const;
 };
 
 struct RenderConfig {

@@ -83,7 +83,7 @@ Pipeline buildUnplaced(const RenderConfig& config, const SceneFacts& facts, cons
     result.graph.samples = view.sampling.samples();
     EffectBuilder builder(result.graph, view, facts);
     builder.setBackground({config.image.background, config.image.transparent});
-    builder.setKeepsVectors(config.output.isVector);
+    builder.setKeepsVectors(config.output.isVector());
     fillSlots(config, builder, result.graph, frame);
     for (const Aov* aov : aovs) {
         if (!builder.find(*aov)) failUnmade(builder, *aov, frame);
@@ -177,8 +177,8 @@ TilePipelines buildPipelines(const RenderConfig& config, const SceneAt& scene, c
         result.centre = buildPipeline(config, facts, result.centreView, centre, frame);
     };
     if (!averaged.empty()) result.sampling = {1, config.image.samples};
-    if (config.output.isVector) result.forVectors = SceneData::triangles | SceneData::normals;
-    if (config.output.isVector && facts.cutouts) result.forVectors = result.forVectors | SceneData::uvs;
+    if (config.output.isVector()) result.forVectors = SceneData::triangles | SceneData::normals;
+    if (config.output.isVector() && facts.cutouts) result.forVectors = result.forVectors | SceneData::uvs;
     // The first pipelines tell the guard band's width, and whether a finer raster is useful.
     build();
     result.guard = std::max(result.averaged.plan.halo(), result.centre ? result.centre->plan.halo() : 0);

@@ -526,7 +526,7 @@ RenderedFrame Renderer::render(
         metadataOf(config, frame.scene, number, options.crop, device_.report(), shadersKey_, pipelines.averaged);
     for (const Aov* aov : config.output.aovs) result.layers.push_back(emptyLayer(*aov));
 
-    if (config.output.isVector) result.drawing = drawVectors(frame, pipelines.averagedView);
+    if (config.output.isVector()) result.drawing = drawVectors(frame, pipelines.averagedView);
     drawBands(frame, pipelines, options, result);
     watch.lap("draw");
     return result;

@@ -129,6 +129,12 @@ PlanReport reportPlan(const RenderConfig& config, const LoadedScene& loaded, int
     addScene(report.facts, config, loaded, scene);
     for (const auto& slot : allSlots())
         for (const auto& choice : config.in(slot.name)) addLengths(report.facts, choice, scene);
+    if (config.output.isVector())
+        for (const auto& choice : config.in("edges"))
+            if (choice.technique->vectorLines)
+                add(report.facts, "vectors",
+                    fmt::format("the lines of '{}', from triangles and their edges on the CPU: no pass draws them",
+                        choice.technique->name));
     if (pipelines.centre)
         add(report.facts, "data AOVs",
             fmt::format("taken at pixel centres by one more sub-frame: {}", passNames(*pipelines.centre)));

@@ -147,6 +147,7 @@ Variant StudyConfig::at(const Settings& settings) const {
         if (!key.starts_with("scene.")) applySetting(variant.document, fmt::format("{}={}", key, value));
     variant.config = parseRenderConfig(variant.document, path_, {{}, {}, meshFile_});
     variant.config.output.aovs = {&aov::beauty};
+    variant.config.output.path = "study.png";  // what is measured are pixels
     variant.scene = changedScene(scene_, settings);
     return variant;
 }

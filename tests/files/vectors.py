@@ -171,6 +171,18 @@ def check_hidden(limn):
     print("hidden: %d lines, %d dashes" % (len(dashes), sum(map(len, dashes))))
 
 
+def check_promises(limn):
+    """Settings that are chosen for a promise leave the output what it is; and the plan says who draws the lines."""
+    run(limn, "render", "corner.toml", "--output", "promised.svg", "--set", "ao={ technique = 'ray_traced' }", "--set",
+        "quality={ error = 0.1 }")
+    assert segments("promised.svg") == segments("plain.svg"), "a promise changes lines"
+    with open("drawn.toml", "w") as f:
+        f.write('include = ["corner.toml"]\n[output]\npath = "drawn.svg"\n')
+    plan = run(limn, "plan", "drawn.toml").decode()
+    assert "no pass draws them" in plan and not re.search(r"\d  mesh_lines", plan), plan
+    assert re.search(r"\d  mesh_lines", run(limn, "plan", "corner.toml").decode()), "a PNG has its lines by a pass"
+
+
 def encoded(ink):
     """Black ink over white paper, as programs blend it that know no linear light."""
     return 255 * (1 - ink)
@@ -230,6 +242,7 @@ def main():
         check_measures(limn)
         check_bytes(limn)
         check_hidden(limn)
+        check_promises(limn)
         check_pictures(limn)
     print("drawings are what limn's own raster shows")
     return 0

@@ -25,7 +25,7 @@ constexpr int kSize = 400;
 std::vector<DrawnLine> linesOf(const LoadedScene& scene, const std::string& settings = "") {
     RenderConfig config = makeConfig(fmt::format(
         "[image]\nsize = [{}, {}]\nsamples = 1\n[[edges]]\ntechnique = 'mesh_lines'\n{}\n", kSize, kSize, settings));
-    config.output.isVector = true;
+    config.output.path = "drawing.svg";
     const Picture p = draw(config, scene);
     return p.frame.drawing->layers.front().lines;
 }
@@ -277,7 +277,7 @@ TEST(MeshLines, ofSubdividedThingsAreTheirOutlines) {
                 {});
             RenderConfig config = makeConfig(
                 fmt::format("[image]\nsize = [{0}, {0}]\nsamples = 1\n[[edges]]\ntechnique = 'mesh_lines'\n", kCoarse));
-            config.output.isVector = true;
+            config.output.path = "drawing.svg";
             const auto lines = draw(config, scene).frame.drawing->layers.front().lines;
             for (const auto& p : outlineOf(scene, kCoarse)) {
                 const double distance = distanceTo(lines, p);
