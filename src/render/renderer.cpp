@@ -491,9 +491,9 @@ std::shared_ptr<const Drawing> Renderer::drawVectors(const Frame& frame, const V
     }
     for (const auto& choice : frame.config.in("edges")) {
         if (!choice.technique->vectorLines) continue;
-        LineLayer layer = choice.technique->vectorLines(view, choice.at(frame.number).get());
+        const LineLayer layer = choice.technique->vectorLines(view, choice.at(frame.number).get());
         if (layer.look.opacity <= 0 || layer.look.widest() <= 0) continue;
-        drawing->layers.push_back({sceneLines_->lines(view, layer.request), std::move(layer.look)});
+        drawing->layers.push_back({sceneLines_->lines(view, layer.request), layer.look});
     }
     return drawing;
 }
